@@ -1,0 +1,169 @@
+"""Strip theory: Theodorsen's section forces, integrated along every segment.
+
+Per unit span, about the elastic axis, with plunge h up and twist phi nose up (Theodorsen 1935,
+NACA Report 496, whose h is positive down), C = C(p) and the lift slope c:
+
+    w34 = U phi - h' + b (1/2 - a) phi'
+    L = pi rho b^2 (-h'' + U phi' - b a phi'') + c rho U b C w34
+    M = pi rho b^3 (-a h'' - U (1/2 - a) phi' - b (1/8 + a^2) phi'') + c rho U b^2 (a + 1/2) C w34
+
+where ' is d/dt. A segment whose half chord b_i is not the reference b sees its own p b_i / b.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from foldwing.maths.arrays import Complex, Real
+from foldwing.maths.bessel import theodorsen_with_derivative
+from foldwing.model import Segment
+
+
+@dataclass(frozen=True)
+class StripForces:
+    """F = (lambda^2 acceleration + lambda U rate + C(p_i) (lambda U lag_rate + U^2 lag)) q.
+
+    Attributes
+    ----------
+    half_chord : float
+        Of the segment, in metres.
+    acceleration, rate, lag_rate, lag : array, shape (n, n)
+    """
+
+    half_chord: float
+    acceleration: Real
+    rate: Real
+    lag_rate: Real
+    lag: Real
+
+    def projected(self, q: Real) -> "StripForces":
+        """Return the forces of the motions ``q`` (n, m), a matrix of column vectors."""
+        return StripForces(
+            self.half_chord,
+            *(q.T @ A @ q for A in (self.acceleration, self.rate, self.lag_rate, self.lag)),
+        )
+
+    @property
+    def quasi_steady(self) -> "StripForces":
+        """The same without apparent mass terms; the lag C is then taken as 1."""
+        zero = np.zeros_like(self.rate)
+        return StripForces(self.half_chord, zero, zero, self.lag_rate, self.lag)
+
+
+def strip_forces(
+    segment: Segment, density: float, weights: Real, plunge: Real, twist: Real
+) -> StripForces:
+    """Integrate the section forces over the span of one segment.
+
+    Parameters
+    ----------
+    segment : Segment
+    density : float
+        Of the air in kg/m^3.
+    weights : array, shape (m,)
+        Quadrature weights along the span in metres.
+    plunge, twist : array, shape (m, n)
+        Motion of the sections per coordinate: up in metres, nose up in radians.
+    """
+    b, a, rho = segment.half_chord, segment.axis_offset, density
+    h, phi, weight = plunge, twist, weights[:, None]
+    lift_arm = h + b * (a + 0.5) * phi
+    downwash = -h + b * (0.5 - a) * phi
+    noncirculatory = np.pi * rho * b**2
+    circulatory = segment.lift_slope * rho * b
+    plunge_load = -h - b * a * phi
+    twist_load = -b * a * h - b**2 * (0.125 + a**2) * phi
+    return StripForces(
+        half_chord=b,
+        acceleration=noncirculatory
+        * (h.T @ (weight * plunge_load) + phi.T @ (weight * twist_load)),
+        rate=noncirculatory * (h - b * (0.5 - a) * phi).T @ (weight * phi),
+        lag_rate=circulatory * lift_arm.T @ (weight * downwash),
+        lag=circulatory * lift_arm.T @ (weight * phi),
+    )
+
+
+@dataclass(frozen=True)
+class StripModel:
+    """Strip theory for the modes of a wing; obeys the port of aerodynamic models.
+
+    Parameters
+    ----------
+    half_chord : float
+        Reference length b of p in metres.
+    segments : tuple of StripForces
+        Forces on each segment for the same n modes.
+    lag : bool
+        Whether the circulatory forces lag by Theodorsen's C(p); quasi-steady theory has C = 1.
+    """
+
+    half_chord: float
+    segments: tuple[StripForces, ...]
+    lag: bool = True
+
+    @property
+    def size(self) -> int:
+        """Number n of modes."""
+        return len(self.segments[0].lag)
+
+    @cached_property
+    def _chords(self) -> tuple[float, ...]:
+        return tuple(sorted({s.half_chord for s in self.segments}))
+
+    @cached_property
+    def _terms(self) -> Complex:
+        """Coefficients of 1, p, p^2 and, per chord, of C and p C; shape (terms, n^2)."""
+        b, n = self.half_chord, self.size
+        rows = [
+            np.zeros((n, n)),
+            sum(s.rate for s in self.segments) / b,
+            sum(s.acceleration for s in self.segments) / b**2,
+        ]
+        for chord in self._chords:
+            alike = [s for s in self.segments if s.half_chord == chord]
+            rows += [sum(s.lag for s in alike), sum(s.lag_rate for s in alike) / b]
+        return np.array(rows, dtype=complex).reshape(len(rows), n * n)
+
+    def _lag(self, p: Complex, chord: float) -> tuple[Complex, Complex]:
+        if not self.lag:
+            return np.ones_like(p), np.zeros_like(p)
+        ratio = chord / self.half_chord
+        C, dC = theodorsen_with_derivative(p * ratio)
+        return C, ratio * dC
+
+    def forces(self, p: Complex) -> Complex:
+        """Return Qhat at the values ``p`` of shape (m,), as an array (m, n, n)."""
+        return self.forces_with_derivative(p)[0]
+
+    def forces_with_derivative(self, p: Complex) -> tuple[Complex, Complex]:
+        """Return Qhat and dQhat/dp, each of shape (m, n, n)."""
+        p = np.asarray(p, complex)
+        one, zero = np.ones_like(p), np.zeros_like(p)
+        values, slopes = [one, p, p**2], [zero, one, 2 * p]
+        for chord in self._chords:
+            C, dC = self._lag(p, chord)
+            values += [C, p * C]
+            slopes += [dC, C + p * dC]
+        shape = (len(p), self.size, self.size)
+        value = (np.stack(values, axis=1) @ self._terms).reshape(shape)
+        slope = (np.stack(slopes, axis=1) @ self._terms).reshape(shape)
+        return value, slope
+
+    def steady_forces(self) -> Real:
+        """Return Qhat(0), shape (n, n)."""
+        return np.asarray(sum(s.lag for s in self.segments))
+
+    def apparent_mass(self) -> Real | None:
+        """Return the apparent mass of still air (n, n): zero for quasi-steady theory."""
+        return np.asarray(-sum(s.acceleration for s in self.segments))
+
+
+def strip_model(
+    forces: Sequence[StripForces], motions: Sequence[Real], half_chord: float, lag: bool
+) -> StripModel:
+    """Return strip theory for the modes given by each segment's coordinates ``motions``."""
+    base = forces if lag else [f.quasi_steady for f in forces]
+    projected = tuple(f.projected(q) for f, q in zip(base, motions, strict=True))
+    return StripModel(half_chord, projected, lag)

@@ -1,0 +1,1 @@
+"""Structure and aerodynamics joined, once, into T(p; U)."""

@@ -1,0 +1,143 @@
+"""Commands and their options. What they do is imported when they run."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from foldwing.cli import options
+
+app = typer.Typer(
+    name="foldwing",
+    help="Flutter and divergence of folding wings, from a model file to a picture.",
+    epilog="Start with: foldwing boundary three-segment --fold2 0:150:2.5 --fold3 level",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from foldwing.results.provenance import package_version
+
+        typer.echo(f"foldwing {package_version()}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+@app.command()
+def examples(
+    name: Annotated[str | None, typer.Argument(help="Show this one.", show_default=False)] = None,
+    copy: Annotated[
+        Path | None, typer.Option("--copy", metavar="FILE", help="Copy it to a new file.")
+    ] = None,
+) -> None:
+    """List the shipped models, show one, or copy one to start from."""
+    from foldwing.cli.commands import run_examples
+
+    run_examples(name, copy)
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON schema of model files, for editors."""
+    from foldwing.cli.commands import run_schema
+
+    run_schema()
+
+
+@app.command()
+def modes(
+    model: options.Model,
+    fold: options.Fold = None,
+    fold_of: options.FoldOf = None,
+    basis: options.Basis = None,
+    measured: options.Measured = None,
+    plot: options.Plot = True,
+    out: options.Out = None,
+    force: options.Force = False,
+    json: options.Json = False,
+) -> None:
+    """Natural frequencies and mode shapes."""
+    from foldwing.cli.commands import Output, Request, run_modes
+
+    request = Request(model, fold, fold_of, basis=basis, measured=measured)
+    run_modes(request, Output(plot, out, force, json))
+
+
+@app.command()
+def flutter(
+    model: options.Model,
+    fold: options.Fold = None,
+    fold_of: options.FoldOf = None,
+    speeds: options.Speeds = None,
+    max_speed: options.MaxSpeed = None,
+    aero: options.Aero = "strip",
+    basis: options.Basis = None,
+    damping: options.Damping = None,
+    damping_threshold: options.Threshold = None,
+    plot: options.Plot = True,
+    out: options.Out = None,
+    force: options.Force = False,
+    json: options.Json = False,
+) -> None:
+    """Flutter and divergence points, and eigenvalues against airspeed."""
+    from foldwing.cli.commands import Output, Request, run_flutter
+
+    request = Request(
+        model,
+        fold,
+        fold_of,
+        basis=basis,
+        aero=aero,
+        damping=damping,
+        damping_threshold=damping_threshold,
+        max_speed=max_speed,
+        speeds=speeds,
+    )
+    run_flutter(request, Output(plot, out, force, json))
+
+
+@app.command()
+def boundary(
+    model: options.Model,
+    fold: options.Fold = None,
+    fold_of: options.FoldOf = None,
+    max_speed: options.MaxSpeed = None,
+    aero: options.Aero = "strip",
+    basis: options.Basis = None,
+    damping: options.Damping = None,
+    damping_threshold: options.Threshold = None,
+    measured: options.Measured = None,
+    jobs: options.Jobs = 1,
+    plot: options.Plot = True,
+    out: options.Out = None,
+    force: options.Force = False,
+    json: options.Json = False,
+) -> None:
+    """Flutter and divergence points against fold angle."""
+    from foldwing.cli.commands import Output, Request, run_boundary
+
+    request = Request(
+        model,
+        fold,
+        fold_of,
+        basis=basis,
+        aero=aero,
+        damping=damping,
+        damping_threshold=damping_threshold,
+        max_speed=max_speed,
+        measured=measured,
+        jobs=jobs,
+    )
+    run_boundary(request, Output(plot, out, force, json))

@@ -1,0 +1,254 @@
+"""What the commands do: read, check, compute, answer, write."""
+
+import json
+import sys
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from foldwing.cli import tables
+from foldwing.errors import InputError, OutputError
+from foldwing.model import (
+    Wing,
+    example_text,
+    json_schema,
+    list_examples,
+    measurement_names,
+    model_text,
+    parse_model,
+)
+
+if TYPE_CHECKING:
+    import xarray
+
+FAILED = 1
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is to be computed; every field as the user gave it."""
+
+    model: str
+    fold: str | None = None
+    fold_of: list[str] | None = None
+    basis: str | None = None
+    aero: str = "strip"
+    damping: float | None = None
+    damping_threshold: float | None = None
+    max_speed: float | None = None
+    speeds: str | None = None
+    measured: str | None = None
+    jobs: int = 1
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The options that differ from their defaults, kept with the result."""
+        defaults = {field.name: field.default for field in fields(self)}
+        return {key: value for key, value in asdict(self).items() if value != defaults[key]}
+
+    def wing(self, text: str) -> Wing:
+        """Return the wing of the model file, its analysis changed by the options."""
+        wing = parse_model(text, self.model)
+        changes = {
+            "basis": self.basis,
+            "damping": self.damping,
+            "damping_threshold": self.damping_threshold,
+        }
+        given = {key: value for key, value in changes.items() if value is not None}
+        return wing.with_analysis(**given) if given else wing
+
+    def cases(self, wing: Wing) -> list[tuple[float, ...]]:
+        """Return the fold angles in degrees of every case."""
+        from foldwing.studies.grid import fold_cases
+
+        return fold_cases(wing, self.fold, dict(_hinge(text) for text in self.fold_of or []))
+
+
+@dataclass(frozen=True)
+class Output:
+    """Where the answer goes."""
+
+    plot: bool = True
+    out: Path | None = None
+    force: bool = False
+    json: bool = False
+
+    def folder(self, kind: str, model: str) -> Path | None:
+        """Return the folder to write, checked before any computing; None when there is none."""
+        from foldwing.results import check_writable, default_folder
+
+        if self.json and self.out is None:
+            return None
+        folder = self.out or default_folder(kind, model)
+        check_writable(folder, self.force)
+        return folder
+
+
+def _hinge(text: str) -> tuple[int, str]:
+    number, _, value = text.partition("=")
+    if not number.isdigit() or not value:
+        limit = "must be a hinge from 2 and its angle"
+        remedy = "Write --fold2 30, --fold2 0:150:5 or --fold3 level."
+        raise InputError("--fold-of", text, limit, remedy)
+    return int(number), value
+
+
+def run_examples(name: str | None, copy: Path | None) -> None:
+    """List the shipped models and measurements, show one, or copy one to a new file."""
+    if name is None:
+        if copy is not None:
+            raise InputError(
+                "NAME", None, "--copy needs to know which example", "Write its name first."
+            )
+        tables.show_examples(list_examples(), measurement_names())
+        return
+    text = example_text(name)
+    if copy is None:
+        typer.echo(text, nl=False)
+        return
+    try:
+        with copy.open("x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        raise OutputError(f"--copy: {copy} exists already. Give the name of a new file.") from None
+    except OSError as problem:
+        raise OutputError(f"--copy: {copy} cannot be written ({problem.strerror}).") from None
+    typer.echo(f"{name} -> {copy}")
+
+
+def run_schema() -> None:
+    """Print the JSON schema of model files."""
+    typer.echo(json.dumps(json_schema(), indent=2))
+
+
+def run_modes(request: Request, output: Output) -> None:
+    """Compute natural frequencies and mode shapes."""
+    text = model_text(request.model)
+    wing = request.wing(text)
+    cases = request.cases(wing)
+    measured = _measured(request)
+    folder = output.folder("modes", request.model)
+
+    from foldwing.results import Source
+    from foldwing.studies.answers import modes_answer
+    from foldwing.studies.modes import modes_study
+
+    dataset, followed = modes_study(
+        wing, cases, source=Source(text, request.options), measured=measured
+    )
+    names = followed[0].modes.names
+    answers = [modes_answer(case.modes, names) for case in followed]
+    if output.json:
+        _print_json(answers[0] if len(answers) == 1 else {"cases": answers})
+    else:
+        tables.show_modes(answers)
+    _write(dataset, folder, output)
+
+
+def run_flutter(request: Request, output: Output) -> None:
+    """Compute flutter points and loci of one case."""
+    text = model_text(request.model)
+    wing = request.wing(text)
+    cases = request.cases(wing)
+    if len(cases) > 1:
+        limit = f"flutter takes one set of fold angles, not {len(cases)}"
+        remedy = "Use: foldwing boundary, for ranges of fold angles."
+        raise InputError("--fold", "a range", limit, remedy)
+
+    from foldwing.aeroelastic.wing import AeroelasticWing
+    from foldwing.results import Source
+    from foldwing.studies.answers import flutter_answer
+    from foldwing.studies.flutter import flutter_study
+    from foldwing.studies.grid import parse_speeds
+
+    speeds = None if request.speeds is None else parse_speeds(request.speeds)
+    model = AeroelasticWing(wing, request.aero)
+    folder = output.folder("flutter", request.model)
+    dataset, case = flutter_study(
+        model,
+        cases[0],
+        speeds=speeds,
+        highest=request.max_speed,
+        source=Source(text, request.options),
+    )
+    if output.json:
+        _print_json(flutter_answer(case))
+    else:
+        tables.show_flutter(dataset)
+    _write(dataset, folder, output)
+
+
+def run_boundary(request: Request, output: Output) -> None:
+    """Compute flutter points of every case of a grid of fold angles."""
+    text = model_text(request.model)
+    wing = request.wing(text)
+    cases = request.cases(wing)
+    measured = _measured(request)
+    folder = output.folder("boundary", request.model)
+
+    from foldwing.aeroelastic.wing import AeroelasticWing
+    from foldwing.results import Source
+    from foldwing.studies.answers import boundary_answer
+    from foldwing.studies.boundary import boundary_study
+
+    with tables.progress("Fold angles", len(cases)) as advance:
+        result = boundary_study(
+            AeroelasticWing(wing, request.aero),
+            cases,
+            highest=request.max_speed,
+            jobs=request.jobs,
+            progress=advance,
+            source=Source(text, request.options),
+            measured=measured,
+        )
+    if output.json:
+        _print_json(boundary_answer(result.outcomes, result.wanted))
+    else:
+        tables.show_boundary(result.dataset)
+    _write(result.dataset, folder, output)
+    tables.name_failures(result.outcomes, result.wanted)
+    if result.interrupted or any(outcome.case is None for outcome in result.outcomes):
+        raise typer.Exit(FAILED)
+
+
+def _measured(request: Request) -> Any:
+    if request.measured is None:
+        return None
+    from foldwing.studies.measured import read_measured
+
+    return read_measured(request.measured)
+
+
+def _print_json(answer: dict[str, Any]) -> None:
+    typer.echo(json.dumps(answer, allow_nan=False))
+
+
+def _write(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> None:
+    """Write the dataset, its tables and its pictures into a folder, and name them."""
+    if folder is None:
+        return
+    from foldwing.results import (
+        DATASET_FILE,
+        result_folder,
+        write_csv,
+        write_dataset,
+        write_frequencies_csv,
+    )
+
+    with result_folder(folder, output.force) as staging:
+        write_dataset(dataset, staging / DATASET_FILE)
+        write_frequencies_csv(dataset, staging / "natural_frequencies.csv")
+        if "case" in dataset:
+            write_csv(dataset, staging / "flutter_points.csv")
+        if output.plot:
+            from foldwing.plots import write_pictures, write_report
+
+            write_pictures(dataset, staging)
+            write_report(dataset, staging / "report.html")
+        names = sorted(path.name for path in staging.iterdir() if path.name != "manifest.txt")
+    stream = sys.stderr if output.json else sys.stdout
+    print(f"\nWritten to {folder}:", *names, sep="\n  ", file=stream)
+    if output.plot:
+        print(f"\nReport: {folder / 'report.html'}", file=stream)

@@ -1,0 +1,93 @@
+"""Arguments and options that commands share."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+Model = Annotated[
+    str,
+    typer.Argument(help="A TOML file, or the name of a shipped example.", show_default=False),
+]
+Fold = Annotated[
+    str | None,
+    typer.Option(
+        "--fold",
+        metavar="DEG,DEG,...",
+        help="Fold angles of all hinges from root to tip, 30,-75; instead of the model's.",
+    ),
+]
+FoldOf = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--fold-of",
+        metavar="I=ANGLE",
+        help="Fold of hinge I: a number, a range start:stop:step, or level. Also --foldI ANGLE: "
+        "--fold2 0:150:2.5 --fold3 level.",
+    ),
+]
+Speeds = Annotated[
+    str | None,
+    typer.Option(
+        "--speeds",
+        metavar="A:B:STEP",
+        help="Airspeeds of the curves in m/s, and the end of the search for flutter points.",
+    ),
+]
+MaxSpeed = Annotated[
+    float | None,
+    typer.Option(
+        "--max-speed",
+        metavar="M/S",
+        help="End of the search for flutter points.  [default: 3 x divergence of the flat wing]",
+    ),
+]
+Aero = Annotated[
+    Literal["strip", "quasi-steady"],
+    typer.Option("--aero", help="Aerodynamics: Theodorsen's strip theory or quasi-steady."),
+]
+Basis = Annotated[
+    Literal["free-free", "converged"] | None,
+    typer.Option("--basis", help="Component modes, instead of the model's."),
+]
+Damping = Annotated[
+    float | None,
+    typer.Option(
+        "--damping",
+        metavar="RATIO",
+        help="Structural damping ratio of every mode, instead of the model's.",
+    ),
+]
+Threshold = Annotated[
+    float | None,
+    typer.Option(
+        "--damping-threshold",
+        metavar="RATIO",
+        help="Damping ratio of the boundary, positive stable, instead of the model's.",
+    ),
+]
+Measured = Annotated[
+    str | None,
+    typer.Option(
+        "--measured",
+        metavar="FILE.csv",
+        help="Measured points to lay over the picture: a CSV file or a shipped table.",
+    ),
+]
+Jobs = Annotated[
+    int, typer.Option("--jobs", min=1, metavar="N", help="Processes to run in parallel.")
+]
+Plot = Annotated[bool, typer.Option("--plot/--no-plot", help="Draw pictures and a report.")]
+Out = Annotated[
+    Path | None,
+    typer.Option(
+        "--out",
+        metavar="DIR",
+        help="Folder of the result.  [default: a new dated folder]",
+    ),
+]
+Force = Annotated[bool, typer.Option("--force", help="Replace an existing result in --out.")]
+Json = Annotated[
+    bool,
+    typer.Option("--json", help="One JSON document on standard output; no files without --out."),
+]

@@ -1,0 +1,1 @@
+"""Model files shipped with the package, one per real case, and measurements to compare with."""

@@ -1,0 +1,51 @@
+"""What the user describes: a wing, its parts, its air and how it is analysed.
+
+=============  =====================================================================
+Module         Responsibility
+=============  =====================================================================
+faults         wording of errors: where, value, limit, remedy
+quantities     numbers with units and bounds, resolved to SI floats
+record         base of all tables: frozen, unknown keys rejected with a suggestion
+material       materials, section properties of a strip of sheet
+parts, wing    the resolved wing that the physics uses
+schema         the tables of a model file as written; JSON schema
+resolve        from the tables to the wing
+library        the models and measurements shipped with the package
+reader         from a file or the name of an example to the wing
+=============  =====================================================================
+"""
+
+from foldwing.model.library import (
+    ExampleInfo,
+    example_names,
+    example_text,
+    list_examples,
+    measurement_names,
+)
+from foldwing.model.material import Material, strip_inertia, strip_properties
+from foldwing.model.parts import Air, Analysis, Hinge, HingeKind, PointMass, Segment
+from foldwing.model.reader import model_text, parse_model, read_model
+from foldwing.model.schema import json_schema
+from foldwing.model.wing import Wing
+
+__all__ = [
+    "Air",
+    "Analysis",
+    "ExampleInfo",
+    "Hinge",
+    "HingeKind",
+    "Material",
+    "PointMass",
+    "Segment",
+    "Wing",
+    "example_names",
+    "example_text",
+    "json_schema",
+    "list_examples",
+    "measurement_names",
+    "model_text",
+    "parse_model",
+    "read_model",
+    "strip_inertia",
+    "strip_properties",
+]

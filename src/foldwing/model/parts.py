@@ -1,0 +1,206 @@
+"""The parts a wing is made of, resolved: section properties and SI floats only."""
+
+import math
+from enum import StrEnum
+from typing import Annotated, Literal, Self
+
+from pydantic import model_validator
+
+from foldwing.model.faults import fault
+from foldwing.model.quantities import (
+    Angle,
+    ChordFraction,
+    Count,
+    DampingRatio,
+    DampingThreshold,
+    Density,
+    Distance,
+    HingeStiffness,
+    InertiaPerSpan,
+    Length,
+    LiftSlope,
+    Mass,
+    MassPerSpan,
+    Position,
+    SectionStiffness,
+)
+from foldwing.model.record import Record
+
+MOST_MODES = 60
+"""Largest number of modes of one kind: beyond it beam theory has long lost its meaning."""
+
+
+MID_CHORD = 0.5
+"""Fraction of the chord where elastic axis and mass centre lie unless given."""
+
+MOST_SPRINGS = 1000
+"""Largest number of springs in a hinge."""
+
+
+class Segment(Record):
+    """One uniform flat segment of a wing; every value in SI units.
+
+    Attributes
+    ----------
+    span, chord : float
+        m.
+    bending_stiffness : float
+        EI, N*m^2.
+    torsion_stiffness : float
+        GJ, N*m^2.
+    mass_per_span : float
+        kg/m.
+    inertia_per_span : float
+        Integral of x^2 dm per span about the elastic axis, kg*m.
+    elastic_axis, mass_centre : float
+        Fractions of the chord from the leading edge.
+    lift_slope : float
+        Slope of the section's lift coefficient, 1/rad.
+    thickness : float, optional
+        m; for reports and plate theory.
+    """
+
+    span: Length
+    chord: Length
+    bending_stiffness: SectionStiffness
+    torsion_stiffness: SectionStiffness
+    mass_per_span: MassPerSpan
+    inertia_per_span: InertiaPerSpan
+    elastic_axis: ChordFraction = MID_CHORD
+    mass_centre: ChordFraction = MID_CHORD
+    lift_slope: LiftSlope = 2.0 * math.pi
+    thickness: Length | None = None
+
+    @model_validator(mode="after")
+    def _inertia_is_possible(self) -> Self:
+        offset = self.mass_offset
+        least = self.mass_per_span * offset * offset
+        if self.inertia_per_span <= least:
+            limit = f"must be greater than mass_per_span times mass offset squared, {least:g} kg*m"
+            remedy = "Give the inertia about the elastic axis, or move mass_centre towards it."
+            raise fault(("inertia_per_span",), self.inertia_per_span, limit, remedy)
+        return self
+
+    @property
+    def half_chord(self) -> float:
+        """Half chord b, m."""
+        return self.chord / 2.0
+
+    @property
+    def axis_offset(self) -> float:
+        """Distance a of the elastic axis aft of mid-chord, in half chords."""
+        return 2.0 * self.elastic_axis - 1.0
+
+    @property
+    def mass_offset(self) -> float:
+        """Distance of the mass centre aft of the elastic axis, m."""
+        return (self.mass_centre - self.elastic_axis) * self.chord
+
+    @property
+    def area(self) -> float:
+        """Planform area, m^2."""
+        return self.span * self.chord
+
+
+class HingeKind(StrEnum):
+    """What a hinge does to the relative rotation about its line."""
+
+    SPRING = "spring"
+    RIGID = "rigid"
+    FREE = "free"
+
+
+class Hinge(Record):
+    """The joint between a segment and its inboard neighbour.
+
+    Attributes
+    ----------
+    kind : HingeKind
+        Spring, rigid or free.
+    stiffness : float
+        Total rotational stiffness, N*m/rad; above 0 for a spring, otherwise 0.
+    springs : int
+        Number of equal springs along the hinge, centred on it.
+    spacing : float
+        Distance between neighbouring springs, m.
+    fold : float
+        Fold angle psi in rad, positive folding the outboard part up. Given in degrees, or as text
+        with a unit.
+    """
+
+    kind: HingeKind = HingeKind.SPRING
+    stiffness: HingeStiffness = 0.0
+    springs: Annotated[int, Count(1, MOST_SPRINGS)] = 1
+    spacing: Distance = 0.0
+    fold: Angle = 0.0
+
+    @model_validator(mode="after")
+    def _stiffness_suits_kind(self) -> Self:
+        is_spring = self.kind is HingeKind.SPRING
+        if is_spring and self.stiffness == 0.0:
+            remedy = "Give the stiffness of the hinge, or make it a free hinge."
+            raise fault(("stiffness",), 0.0, "must be greater than 0 N*m/rad in a spring", remedy)
+        if not is_spring and self.stiffness != 0.0:
+            remedy = "Remove the stiffness, or make it a spring."
+            limit = f"must be absent from a {self.kind} hinge"
+            raise fault(("stiffness",), self.stiffness, limit, remedy)
+        return self
+
+
+class PointMass(Record):
+    """A mass without extent, fixed to a segment.
+
+    Attributes
+    ----------
+    segment : int
+        Number of the segment, 1 at the root.
+    mass : float
+        kg.
+    x : float
+        Distance aft of the elastic axis, m.
+    y : float
+        Distance outboard of the segment's inboard edge, m.
+    """
+
+    segment: Annotated[int, Count(1)]
+    mass: Mass
+    y: Distance
+    x: Position = 0.0
+
+
+class Air(Record):
+    """The air a wing moves in.
+
+    Attributes
+    ----------
+    density : float
+        kg/m^3.
+    """
+
+    density: Density = 1.225
+
+
+class Analysis(Record):
+    """How finely a wing is analysed and what counts as unstable.
+
+    Attributes
+    ----------
+    bending_modes, torsion_modes : int
+        Modes per segment. Segment 1 has so many clamped modes; in every other segment one of each
+        is a rigid mode (roll, pitch), and its translations and yaw are not counted.
+    system_modes : int
+        Modes of the joined wing that are kept.
+    basis : str
+        "free-free": the modes above alone; "converged": with hinge modes added.
+    damping : float
+        Structural damping ratio of every system mode.
+    damping_threshold : float
+        A mode is unstable when its damping ratio is below this.
+    """
+
+    bending_modes: Annotated[int, Count(2, MOST_MODES)] = 10
+    torsion_modes: Annotated[int, Count(1, MOST_MODES)] = 10
+    system_modes: Annotated[int, Count(1, MOST_MODES)] = 12
+    basis: Literal["free-free", "converged"] = "free-free"
+    damping: DampingRatio = 0.0
+    damping_threshold: DampingThreshold = 0.0

@@ -1,0 +1,123 @@
+"""From the tables of a model file to a Wing: materials looked up, sections computed."""
+
+from dataclasses import dataclass
+
+from foldwing.errors import InputError
+from foldwing.model.faults import as_input_error, file_path, shown
+from foldwing.model.material import Material, strip_inertia, strip_properties
+from foldwing.model.parts import MID_CHORD, Hinge, HingeKind, Segment
+from foldwing.model.record import suggest
+from foldwing.model.schema import HingeTable, ModelFile, SegmentKeys
+from foldwing.model.wing import Wing, in_file
+
+_SHEET = ("bending_stiffness", "torsion_stiffness", "mass_per_span", "inertia_per_span")
+_EXAMPLES = {"span": '"14 cm"', "chord": '"5 cm"', "thickness": '"1/16 in"', "material": '"sheet"'}
+
+
+def resolved(model: ModelFile) -> Wing:
+    """Return the wing that a model file describes.
+
+    Raises
+    ------
+    InputError
+        When something is missing or does not fit; it names the field in the file.
+    """
+    segments = tuple(_segment(model, index) for index in range(len(model.wing.segment)))
+    hinges = tuple(
+        _hinge(table.hinge, index)
+        for index, table in enumerate(model.wing.segment)
+        if table.hinge is not None
+    )
+    with as_input_error(place=in_file):
+        return Wing(
+            title=model.title,
+            segments=segments,
+            hinges=hinges,
+            point_masses=model.point_mass,
+            air=model.air,
+            analysis=model.analysis,
+        )
+
+
+@dataclass(frozen=True)
+class _Section:
+    """What the file says of one segment, by itself or in the wing table."""
+
+    index: int
+    keys: SegmentKeys
+    common: SegmentKeys
+
+    def value(self, key: str) -> object:
+        own = getattr(self.keys, key)
+        return getattr(self.common, key) if own is None else own
+
+    def length(self, key: str) -> float:
+        value = self.value(key)
+        if not isinstance(value, float):
+            raise self.missing(key, "must be a length (m), greater than 0 m")
+        return value
+
+    def missing(self, key: str, limit: str) -> InputError:
+        example = _EXAMPLES.get(key)
+        remedy = f"Add {key} = {example}" if example else f"Add {key}"
+        return InputError(self.path(key), None, limit, f"{remedy} here, or in [wing] for all.")
+
+    def path(self, key: str) -> str:
+        own = getattr(self.keys, key) is not None or getattr(self.common, key) is None
+        return file_path(("wing", "segment", self.index, key) if own else ("wing", key))
+
+
+def _segment(model: ModelFile, index: int) -> Segment:
+    section = _Section(index, model.wing.segment[index], model.wing)
+    given = {key: section.value(key) for key in Segment.model_fields}
+    values = {key: value for key, value in given.items() if value is not None}
+    values |= {"span": section.length("span"), "chord": section.length("chord")}
+    material = _material(model, section)
+    if any(key not in values for key in _SHEET):
+        values = _sheet_values(section, material, values) | values
+    with as_input_error(("wing", "segment", index)):
+        return Segment.model_validate(values)
+
+
+def _material(model: ModelFile, section: _Section) -> Material | None:
+    name = section.value("material")
+    if name is None:
+        return None
+    material = model.material.get(str(name))
+    if material is None:
+        limit = "must be the name of a [material.NAME] table"
+        remedy = suggest(name, model.material)
+        raise InputError(section.path("material"), shown(name), limit, remedy)
+    return material
+
+
+def _sheet_values(
+    section: _Section, material: Material | None, values: dict[str, object]
+) -> dict[str, object]:
+    """Return the section properties of a strip of sheet of the segment's material."""
+    absent = [key for key in _SHEET if key not in values]
+    thickness = section.value("thickness")
+    if material is None and thickness is None:
+        raise section.missing(absent[0], "must be given, or else a material and a thickness")
+    if material is None:
+        raise section.missing("material", f"is needed for {', '.join(absent)}")
+    if not isinstance(thickness, float):
+        raise section.missing("thickness", f"is needed for {', '.join(absent)}")
+    chord = section.length("chord")
+    strip = strip_properties(material, chord, thickness)
+    mass = values.get("mass_per_span", strip["mass_per_span"])
+    axis, centre = (values.get(key, MID_CHORD) for key in ("elastic_axis", "mass_centre"))
+    assert isinstance(mass, float) and isinstance(axis, float) and isinstance(centre, float)
+    return {**strip, "inertia_per_span": strip_inertia(mass, chord, (centre - axis) * chord)}
+
+
+def _hinge(table: HingeTable, index: int) -> Hinge:
+    """Return the hinge of the segment at `index`; its stiffness is that of all springs."""
+    stiffness = table.stiffness or 0.0
+    springs = table.springs or 1
+    kind = HingeKind.SPRING if table.form in ("springs", "stiffness") else HingeKind(table.form)
+    with as_input_error(("wing", "segment", index, "hinge")):
+        hinge = Hinge(
+            kind=kind, stiffness=springs * stiffness, springs=springs, spacing=table.spacing or 0.0
+        )
+    return hinge.model_copy(update={"fold": table.fold})

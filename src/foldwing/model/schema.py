@@ -1,0 +1,144 @@
+"""The tables of a model file, as they are written."""
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, StrictBool, model_validator
+
+from foldwing.model.faults import fault
+from foldwing.model.material import Material
+from foldwing.model.parts import MOST_SPRINGS, Air, Analysis, PointMass
+from foldwing.model.quantities import (
+    Angle,
+    ChordFraction,
+    Count,
+    Distance,
+    HingeStiffness,
+    InertiaPerSpan,
+    Length,
+    LiftSlope,
+    MassPerSpan,
+    SectionStiffness,
+)
+from foldwing.model.record import Record
+
+HingeForm = Literal["springs", "stiffness", "rigid", "free"]
+
+_FORMS = (
+    'Write hinge = { springs = 3, spacing = "15 mm", stiffness = "0.18 N*m/rad" }, '
+    '{ stiffness = "0.54 N*m/rad" }, { rigid = true } or { free = true }.'
+)
+
+
+class HingeTable(Record):
+    """The hinge at the inboard edge of a segment: springs, one stiffness, rigid or free.
+
+    With ``springs`` the stiffness is that of each spring, without it that of the whole hinge.
+    """
+
+    fold: Angle = 0.0
+    springs: Annotated[int, Count(1, MOST_SPRINGS)] | None = None
+    spacing: Distance | None = None
+    stiffness: HingeStiffness | None = None
+    rigid: StrictBool | None = None
+    free: StrictBool | None = None
+
+    @model_validator(mode="after")
+    def _one_form(self) -> Self:
+        for key in ("rigid", "free"):
+            if getattr(self, key) is False:
+                raise fault((key,), False, "can only be true", f"Remove {key}. {_FORMS}")
+        kinds = [key for key in ("stiffness", "rigid", "free") if getattr(self, key) is not None]
+        if len(kinds) > 1:
+            limit = f"a hinge has only one of {' and '.join(kinds)}"
+            raise fault((kinds[1],), getattr(self, kinds[1]), limit, _FORMS)
+        if self.springs is not None or self.spacing is not None:
+            self._check_springs(kinds)
+        elif not kinds:
+            raise fault((), None, "needs a stiffness, or to be rigid or free", _FORMS)
+        return self
+
+    def _check_springs(self, kinds: list[str]) -> None:
+        if kinds and kinds != ["stiffness"]:
+            limit = f"a {kinds[0]} hinge has no springs"
+            raise fault((kinds[0],), True, limit, _FORMS)
+        if self.springs is None:
+            limit = "must be given together with spacing"
+            raise fault(("springs",), None, limit, "Add springs = 3, or remove spacing.")
+        if self.stiffness is None:
+            limit = "must be given together with springs"
+            remedy = 'Add the stiffness of each spring, stiffness = "0.18 N*m/rad".'
+            raise fault(("stiffness",), None, limit, remedy)
+        if self.springs > 1 and self.spacing is None:
+            limit = f"must be given for {self.springs} springs"
+            raise fault(("spacing",), None, limit, 'Add spacing = "15 mm".')
+
+    @property
+    def form(self) -> HingeForm:
+        """Which of the four ways of describing a hinge was taken."""
+        if self.rigid:
+            return "rigid"
+        if self.free:
+            return "free"
+        return "stiffness" if self.springs is None else "springs"
+
+
+class SegmentKeys(Record):
+    """What may be said of one segment, or in the wing table of all."""
+
+    span: Length | None = None
+    chord: Length | None = None
+    thickness: Length | None = None
+    material: str | None = None
+    elastic_axis: ChordFraction | None = None
+    mass_centre: ChordFraction | None = None
+    bending_stiffness: SectionStiffness | None = None
+    torsion_stiffness: SectionStiffness | None = None
+    mass_per_span: MassPerSpan | None = None
+    inertia_per_span: InertiaPerSpan | None = None
+    lift_slope: LiftSlope | None = None
+
+
+class SegmentTable(SegmentKeys):
+    """One segment; what it does not say is taken from the wing table."""
+
+    hinge: HingeTable | None = None
+
+
+class WingTable(SegmentKeys):
+    """The segments from root to tip, and what they have in common."""
+
+    segment: tuple[SegmentTable, ...] = ()
+
+    @model_validator(mode="after")
+    def _hinges_join_segments(self) -> Self:
+        if not self.segment:
+            limit = "a wing has at least 1 segment"
+            raise fault(("segment",), "no segment", limit, "Add a [[wing.segment]] table.")
+        for index, segment in enumerate(self.segment):
+            where = ("segment", index, "hinge")
+            if index == 0 and segment.hinge is not None:
+                limit = "the first segment is clamped at the root and has no hinge"
+                raise fault(
+                    where, "a hinge", limit, "Move it to the segment outboard of the hinge."
+                )
+            if index > 0 and segment.hinge is None:
+                limit = "every segment after the first needs the hinge at its inboard edge"
+                raise fault(where, None, limit, _FORMS)
+        return self
+
+
+class ModelFile(Record):
+    """A whole model file."""
+
+    wing: WingTable
+    title: str = ""
+    material: dict[str, Material] = Field(default_factory=dict)
+    point_mass: tuple[PointMass, ...] = ()
+    air: Air = Air()
+    analysis: Analysis = Analysis()
+
+
+def json_schema() -> dict[str, Any]:
+    """Return the JSON schema of a model file, for editors."""
+    schema = ModelFile.model_json_schema()
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -1,0 +1,181 @@
+"""A folding wing: segments joined by hinges, with point masses, in air."""
+
+from itertools import accumulate
+from typing import Self
+
+from pydantic import model_validator
+
+from foldwing.errors import InputError
+from foldwing.model.faults import Path, as_input_error, fault, shown
+from foldwing.model.parts import Air, Analysis, Hinge, PointMass, Segment
+from foldwing.model.quantities import ANGLE, Bounds, Quantity
+from foldwing.model.record import Record
+
+IMBALANCE = Quantity("a static imbalance", "", "0.1", Bounds(at_least=0.0))
+
+_ROUND_OFF = 1e-9
+"""Relative excess that a length may have by conversion of units alone."""
+
+
+class Wing(Record):
+    """A wing of flat segments, clamped at the root of the first; never changed, only copied.
+
+    Attributes
+    ----------
+    segments : tuple of Segment
+        From root to tip.
+    hinges : tuple of Hinge
+        One fewer than the segments; ``hinges[0]`` joins segments 1 and 2.
+    point_masses : tuple of PointMass
+        Masses fixed to segments.
+    air : Air
+        What the wing moves in.
+    analysis : Analysis
+        How it is analysed.
+    title : str
+        For reports.
+    """
+
+    segments: tuple[Segment, ...]
+    hinges: tuple[Hinge, ...] = ()
+    point_masses: tuple[PointMass, ...] = ()
+    air: Air = Air()
+    analysis: Analysis = Analysis()
+    title: str = ""
+
+    @model_validator(mode="after")
+    def _parts_fit(self) -> Self:
+        if not self.segments:
+            raise fault(("segments",), 0, "a wing has at least 1 segment", "Add a segment.")
+        if len(self.hinges) != self.count - 1:
+            limit = f"{self.count} segments need {self.count - 1} hinges"
+            raise fault(("hinges",), len(self.hinges), limit, "Give one hinge between neighbours.")
+        for index in range(len(self.hinges)):
+            self._check_springs(index)
+        for index, mass in enumerate(self.point_masses):
+            self._check_point_mass(index, mass)
+        return self
+
+    def _check_springs(self, index: int) -> None:
+        hinge = self.hinges[index]
+        chord = min(segment.chord for segment in self.segments[index : index + 2])
+        if (hinge.springs - 1) * hinge.spacing > chord * (1.0 + _ROUND_OFF):
+            limit = f"{hinge.springs} springs must fit in the narrower chord, {chord:g} m"
+            remedy = (
+                f"Keep the spacing to {chord / (hinge.springs - 1):g} m, or take fewer springs."
+            )
+            raise fault(("hinges", index, "spacing"), hinge.spacing, limit, remedy)
+
+    def _check_point_mass(self, index: int, mass: PointMass) -> None:
+        where: Path = ("point_masses", index)
+        if mass.segment > self.count:
+            limit = f"must be a segment of this wing, 1 to {self.count}"
+            remedy = "Count the segments from 1 at the root."
+            raise fault((*where, "segment"), mass.segment, limit, remedy)
+        span = self.segments[mass.segment - 1].span
+        if mass.y > span * (1.0 + _ROUND_OFF):
+            limit = f"must lie on segment {mass.segment}, 0 to {span:g} m"
+            remedy = "Measure y from the inboard edge of that segment."
+            raise fault((*where, "y"), mass.y, limit, remedy)
+
+    @property
+    def count(self) -> int:
+        """Number of segments N."""
+        return len(self.segments)
+
+    @property
+    def fold_angles(self) -> tuple[float, ...]:
+        """Fold angles psi_2..psi_N in rad, each relative to the inboard neighbour."""
+        return tuple(hinge.fold for hinge in self.hinges)
+
+    @property
+    def cumulative_angles(self) -> tuple[float, ...]:
+        """Angle Psi_1..Psi_N of each segment to the first in rad; the first is 0."""
+        return tuple(accumulate(self.fold_angles, initial=0.0))
+
+    def folded(self, *degrees: float | str) -> Self:
+        """Return this wing with other fold angles.
+
+        Parameters
+        ----------
+        *degrees : float or str
+            psi_2..psi_N in degrees, or texts with a unit.
+
+        Raises
+        ------
+        InputError
+            When there are not N - 1 finite angles.
+        """
+        if len(degrees) != len(self.hinges):
+            raise InputError(
+                "fold",
+                ", ".join(f"{shown(angle)}" for angle in degrees) or "no angle",
+                f"this wing has {self.count} segments and takes {len(self.hinges)} fold angles",
+                "Give one angle in degrees for each hinge, from root to tip.",
+            )
+        angles = [ANGLE.read(angle, "fold") for angle in degrees]
+        hinges = tuple(
+            hinge.model_copy(update={"fold": angle})
+            for hinge, angle in zip(self.hinges, angles, strict=True)
+        )
+        return self._with(hinges=hinges)
+
+    def with_analysis(self, **changes: object) -> Self:
+        """Return this wing with some values of its analysis changed, ``system_modes=20``."""
+        with as_input_error(("analysis",)):
+            analysis = Analysis.model_validate(self.analysis.model_dump() | changes)
+        return self._with(analysis=analysis)
+
+    def with_air(self, density: float | str) -> Self:
+        """Return this wing in air of another density (kg/m^3, or text with a unit)."""
+        with as_input_error(("air",)):
+            air = Air.model_validate({"density": density})
+        return self._with(air=air)
+
+    def with_point_masses(self, *masses: PointMass) -> Self:
+        """Return this wing with point masses added to those it has."""
+        return self._with(point_masses=(*self.point_masses, *masses))
+
+    def with_static_imbalance(self, imbalance: float) -> Self:
+        """Return this wing with a point mass at each segment's outboard edge.
+
+        The masses sit a quarter chord aft of the elastic axis and give every segment the same
+        static imbalance s = 3 m_p (b/2) / L per mass per span and half chord.
+
+        Parameters
+        ----------
+        imbalance : float
+            s, 0 or more; 0 adds no mass.
+        """
+        s = IMBALANCE.read(imbalance, "static_imbalance")
+        if s == 0.0:
+            return self
+        with as_input_error(("static_imbalance",)):
+            masses = [
+                PointMass(
+                    segment=number,
+                    mass=2.0 / 3.0 * s * segment.mass_per_span * segment.span,
+                    x=segment.half_chord / 2.0,
+                    y=segment.span,
+                )
+                for number, segment in enumerate(self.segments, start=1)
+            ]
+        return self.with_point_masses(*masses)
+
+    def _with(self, **changes: object) -> Self:
+        """Return a copy whose parts are checked against each other again."""
+        with as_input_error(place=in_file):
+            return self.model_validate(dict(self) | changes)
+
+
+def in_file(path: Path) -> Path:
+    """Return where an attribute of a Wing stands in a model file."""
+    match path:
+        case ("hinges", int(index), *rest):
+            return ("wing", "segment", index + 1, "hinge", *rest)
+        case ("segments", *rest):
+            return ("wing", "segment", *rest)
+        case ("point_masses", *rest):
+            return ("point_mass", *rest)
+        case _:
+            return path

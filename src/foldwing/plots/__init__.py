@@ -1,0 +1,34 @@
+"""Pictures of results: a dataset goes in, figures come out; nothing is computed here.
+
+A picture is described once (`picture`) and drawn by two renderers.
+
+==========================  ===================================================================
+`frequencies`               natural frequencies against the fold angle, or as bars
+`loci`                      growth and frequency against airspeed; the root locus
+`boundary`                  flutter speed, frequency and strength against the fold angle
+`shapes`                    mode shapes, and the motion at flutter
+`determinant`               zero lines of the determinant
+`catalogue`                 which of these a dataset has
+`layout`, `palette`         what they share: labels, ranges, colours by role
+`events`                    how flutter points look, the same everywhere
+`static`, `static_scenes`   matplotlib: PNG and SVG
+`interactive`, ..._scenes   plotly: JSON data
+`report`                    one HTML file with everything
+==========================  ===================================================================
+"""
+
+from foldwing.plots.output import (
+    interactive_figures,
+    static_figures,
+    write_animation,
+    write_pictures,
+    write_report,
+)
+
+__all__ = [
+    "interactive_figures",
+    "static_figures",
+    "write_animation",
+    "write_pictures",
+    "write_report",
+]

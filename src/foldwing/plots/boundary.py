@@ -1,0 +1,294 @@
+"""The flutter boundary: speed, frequency and strength against the fold angle."""
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from foldwing.plots.events import color_of, event_marks
+from foldwing.plots.layout import Sweep, angle_label, subtitle, sweep
+from foldwing.plots.palette import mode_colors
+from foldwing.plots.picture import (
+    Area,
+    Array,
+    Cells,
+    Item,
+    Line,
+    Marks,
+    Panel,
+    Picture,
+    Range,
+    padded,
+)
+from foldwing.results.flutter_table import FlutterRow, flutter_rows
+from foldwing.results.schema import fold_angle_names
+from foldwing.results.summary import failed_cases, uncertified_cases
+
+if TYPE_CHECKING:
+    import xarray
+
+_DOUBTFUL = "case not certified: may be incomplete"
+_CONTINUES = 0.12
+"""Largest relative change of speed and of frequency between neighbours that a line joins."""
+
+
+def boundary(dataset: "xarray.Dataset") -> Picture | None:
+    """Draw flutter speed, frequency and strength against the fold angle."""
+    if dataset.attrs["kind"] != "boundary" or not sweep(dataset).single:
+        return None
+    swept, rows, colors = sweep(dataset), flutter_rows(dataset), mode_colors(dataset)
+    flutter = [row for row in rows if row.kind == "flutter"]
+    with_strength = [row for row in flutter if np.isfinite(row.strength)]
+    chosen = ((rows, "speed"), (flutter, "frequency"), (with_strength, "strength"))
+    speed, frequency, strength = (
+        [
+            *_lines(dataset, swept, points, quantity, colors),
+            *_marks(dataset, swept, points, quantity, colors),
+        ]
+        for points, quantity in chosen
+    )
+    top, x = _top(dataset, rows), padded(swept.values, 0.02)
+    shaded = _shaded(dataset, swept, rows, colors)
+    speed = [*shaded, *speed, *_case_marks(dataset, swept, rows, top)]
+    hertz = _frequency_range(dataset, flutter)
+    return Picture(
+        "boundary",
+        "The airspeeds at which the wing becomes unstable, against fold angle",
+        subtitle(dataset, swept.rest) + ". Shaded: unstable airspeeds (darker when the flutter "
+        "ends again). Strength is how fast the instability sets in with airspeed.",
+        [
+            Panel(swept.label, "airspeed (m/s)", speed, x, (0.0, top)),
+            Panel(swept.label, "flutter frequency (Hz)", frequency, x, hertz, height=0.75),
+            Panel(swept.label, "strength (s/m)", strength, x, height=0.75),
+        ],
+    )
+
+
+def boundary_map(dataset: "xarray.Dataset") -> Picture | None:
+    """Draw the lowest airspeed of instability over two fold angles, for a grid of cases."""
+    names = [n for n in fold_angle_names(dataset) if len(np.unique(dataset[n].values)) > 1]
+    if dataset.attrs["kind"] != "boundary" or sweep(dataset).single or len(names) < 2:
+        return None
+    (x, column), (y, line) = (
+        np.unique(dataset[name].values, return_inverse=True) for name in names[:2]
+    )
+    lowest = np.full((len(y), len(x)), np.nan)
+    for row in flutter_rows(dataset):
+        if row.event == "onset":
+            here = line[row.case], column[row.case]
+            lowest[here] = np.nanmin([lowest[here], row.speed])
+    return Picture(
+        "boundary-map",
+        "The lowest airspeed at which the wing becomes unstable, over two fold angles",
+        subtitle(dataset) + ". Empty cells: no flutter or divergence found, or no result.",
+        [
+            Panel(
+                angle_label(names[0]),
+                angle_label(names[1]),
+                [Cells(x, y, lowest, "airspeed (m/s)")],
+                height=1.7,
+            )
+        ],
+    )
+
+
+def _top(dataset: "xarray.Dataset", rows: Sequence[FlutterRow]) -> float:
+    """Highest airspeed to show."""
+    measured = dataset["measured_speed"].values if "measured_speed" in dataset else ()
+    values = np.array([*(row.speed for row in rows), *measured, 0.0])
+    limit = dataset.attrs.get("speed_limit")
+    return 1.03 * float(limit) if limit else 1.08 * float(np.nanmax(values)) or 1.0
+
+
+def _frequency_range(dataset: "xarray.Dataset", rows: Sequence[FlutterRow]) -> Range:
+    measured = dataset["measured_frequency"].values if "measured_frequency" in dataset else ()
+    values = np.array([*(row.frequency for row in rows), *measured, 0.0])
+    return (0.0, 1.15 * float(np.nanmax(values)) or 1.0)
+
+
+def _marks(
+    dataset: "xarray.Dataset",
+    swept: Sweep,
+    rows: Sequence[FlutterRow],
+    quantity: str,
+    colors: dict[str, str],
+) -> list[Item]:
+    x = [float(swept.values[row.case]) for row in rows]
+    y = [float(getattr(row, quantity)) for row in rows]
+    doubtful = set(uncertified_cases(dataset))
+    crossed = [index for index, row in enumerate(rows) if row.case in doubtful]
+    items: list[Item] = [*event_marks(rows, x, y, colors, by_mode=True)]
+    if crossed:
+        items.append(
+            Marks(
+                np.array([x[index] for index in crossed]),
+                np.array([y[index] for index in crossed]),
+                "x",
+                "warning",
+                _DOUBTFUL,
+                8,
+            )
+        )
+    return items + _measured(dataset, quantity)
+
+
+def _measured(dataset: "xarray.Dataset", quantity: str) -> list[Item]:
+    name = f"measured_{quantity}"
+    if name not in dataset:
+        return []
+    y = dataset[name].values
+    unit = dataset[name].attrs["units"]
+    hover = [f"measured: {value:.4g} {unit}" for value in y]
+    return [Marks(dataset["measured_fold"].values, y, "star", "ink", "measured", 9, hover)]
+
+
+def _case_marks(
+    dataset: "xarray.Dataset", swept: Sweep, rows: Sequence[FlutterRow], top: float
+) -> list[Item]:
+    """Mark at the edge what has no flutter point: failed, stable and uncertified cases."""
+    failed, doubtful = failed_cases(dataset), uncertified_cases(dataset)
+    with_points = {row.case for row in rows}
+    quiet = [
+        case
+        for case in range(dataset.sizes["fold"])
+        if case not in with_points and case not in failed
+    ]
+    messages = dataset["message"].values if "message" in dataset else None
+    text = [str(messages[case]) if messages is not None else "failed" for case in failed]
+    empty = [case for case in quiet if case in doubtful]
+    stable = [case for case in quiet if case not in doubtful]
+
+    def at(cases: Sequence[int], share: float) -> tuple[Array, Array]:
+        return swept.values[list(cases)], np.full(len(cases), share * top)
+
+    found = [
+        Marks(*at(failed, 0.03), "x", "muted", "computation failed", 8, text),
+        Marks(*at(empty, 0.03), "x", "warning", _DOUBTFUL, 8),
+        Marks(*at(stable, 0.97), "triangle", "muted", "stable up to the highest airspeed", 7),
+    ]
+    return [marks for marks in found if len(marks.x)]
+
+
+def _shaded(
+    dataset: "xarray.Dataset", swept: Sweep, rows: Sequence[FlutterRow], colors: dict[str, str]
+) -> list[Item]:
+    """Shade the unstable airspeeds of each case over the width that it stands for."""
+    limit = float(dataset.attrs.get("speed_limit", _top(dataset, rows)))
+    closed: dict[str, list[tuple[FlutterRow, float]]] = {}
+    open_: dict[str, list[tuple[FlutterRow, float]]] = {}
+    for row in rows:
+        if row.event == "onset":
+            end = _end(row, rows)
+            (open_ if end is None else closed).setdefault(color_of(row, colors), []).append(
+                (row, limit if end is None else end)
+            )
+    edges = _edges(swept)
+    return [
+        Area(*_boxes(group, edges), color, opacity)
+        for groups, opacity in ((open_, 0.09), (closed, 0.26))
+        for color, group in groups.items()
+    ]
+
+
+def _end(row: FlutterRow, rows: Sequence[FlutterRow]) -> float | None:
+    """Return where the instability that begins at ``row`` ends."""
+    later = [
+        other.speed
+        for other in rows
+        if (other.case, other.kind, other.branch) == (row.case, row.kind, row.branch)
+        and other.event == "recovery"
+        and other.speed > row.speed
+    ]
+    return min(later, default=None)
+
+
+def _edges(swept: Sweep) -> Array:
+    """Return the interval that each case stands for, shape (fold, 2)."""
+    x = swept.values[swept.order]
+    if len(x) == 1:
+        return np.array([[x[0] - 1.0, x[0] + 1.0]])
+    middle = (x[1:] + x[:-1]) / 2
+    edges = np.empty((len(x), 2))
+    edges[swept.order, 0] = np.concatenate([[x[0]], middle])
+    edges[swept.order, 1] = np.concatenate([middle, [x[-1]]])
+    return edges
+
+
+def _boxes(group: Sequence[tuple[FlutterRow, float]], edges: Array) -> tuple[Array, Array]:
+    x = [(*edges[row.case][[0, 1, 1, 0]], np.nan) for row, _ in group]
+    y = [(row.speed, row.speed, end, end, np.nan) for row, end in group]
+    return np.ravel(x), np.ravel(y)
+
+
+def _lines(
+    dataset: "xarray.Dataset",
+    swept: Sweep,
+    rows: Sequence[FlutterRow],
+    quantity: str,
+    colors: dict[str, str],
+) -> list[Item]:
+    """Thin lines: the continuation curves when there are any, else between close neighbours."""
+    if "curve_id" in dataset:
+        return list(_curves(dataset, quantity))
+
+    def coordinates(row: FlutterRow) -> tuple[float, float]:
+        return float(swept.values[row.case]), float(getattr(row, quantity))
+
+    groups: dict[tuple[str, str, str], list[FlutterRow]] = {}
+    for row in rows:
+        groups.setdefault((row.kind, row.event, row.mode_name), []).append(row)
+    return [
+        Line(*_joined(group, swept, coordinates), color_of(group[0], colors), width=1.0)
+        for group in groups.values()
+    ]
+
+
+def _joined(
+    rows: Sequence[FlutterRow],
+    swept: Sweep,
+    coordinates: Callable[[FlutterRow], tuple[float, float]],
+) -> tuple[Array, Array]:
+    """Return segments between points of neighbouring cases, separated by nan."""
+    by_case: dict[int, list[FlutterRow]] = {}
+    for row in rows:
+        by_case.setdefault(row.case, []).append(row)
+    points: list[tuple[float, float]] = []
+    order = swept.order.tolist()
+    for left, right in pairwise(order):
+        for a, b in _pairs(by_case.get(left, []), by_case.get(right, [])):
+            points += [coordinates(a), coordinates(b), (np.nan, np.nan)]
+    x, y = np.array(points or [(np.nan, np.nan)]).T
+    return x, y
+
+
+def _pairs(
+    left: Sequence[FlutterRow], right: Sequence[FlutterRow]
+) -> Iterator[tuple[FlutterRow, FlutterRow]]:
+    """Match points that clearly continue, nearest first, each once."""
+    ranked = sorted((_change(a, b), i, j) for i, a in enumerate(left) for j, b in enumerate(right))
+    used_left: set[int] = set()
+    used_right: set[int] = set()
+    for change, i, j in ranked:
+        if change < _CONTINUES and i not in used_left and j not in used_right:
+            used_left.add(i)
+            used_right.add(j)
+            yield left[i], right[j]
+
+
+def _change(a: FlutterRow, b: FlutterRow) -> float:
+    speed = abs(a.speed - b.speed) / max(a.speed, b.speed)
+    if a.kind == "divergence":
+        return speed
+    return max(speed, abs(a.frequency - b.frequency) / max(a.frequency, b.frequency))
+
+
+def _curves(dataset: "xarray.Dataset", quantity: str) -> Iterator[Line]:
+    identity, kind = dataset["curve_id"].values, dataset["curve_kind"].values
+    for curve in np.unique(identity):
+        own = identity == curve
+        diverging = str(kind[own][0]) == "divergence"
+        if diverging and quantity != "speed":
+            continue
+        x, y = dataset["curve_fold"].values[own], dataset[f"curve_{quantity}"].values[own]
+        yield Line(x, y, "divergence" if diverging else "ink", width=1.0)

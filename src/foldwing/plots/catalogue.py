@@ -1,0 +1,37 @@
+"""Which pictures a dataset has."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from foldwing.plots.boundary import boundary, boundary_map
+from foldwing.plots.determinant import determinant_contours
+from foldwing.plots.frequencies import natural_frequencies
+from foldwing.plots.loci import against_speed, root_locus
+from foldwing.plots.picture import Picture
+from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
+
+if TYPE_CHECKING:
+    import xarray
+
+PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
+    boundary,
+    boundary_map,
+    against_speed,
+    root_locus,
+    determinant_contours,
+    natural_frequencies,
+    mode_shapes,
+    flutter_phases,
+)
+"""Every picture, the most telling first; each gives None for a dataset that lacks its data."""
+
+
+def pictures(dataset: "xarray.Dataset") -> list[Picture]:
+    """Return the pictures that can be drawn from a dataset."""
+    drawn = (make(dataset) for make in PICTURES)
+    return [picture for picture in drawn if picture is not None]
+
+
+def films(dataset: "xarray.Dataset") -> list[Picture]:
+    """Return the pictures that move."""
+    return flutter_films(dataset)

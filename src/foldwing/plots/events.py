@@ -1,0 +1,91 @@
+"""How flutter points look in every picture: filled onset, hollow recovery, square, diamond."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from foldwing.plots.picture import Marks, Symbol
+from foldwing.results.flutter_table import FlutterRow
+
+_SYMBOLS: dict[tuple[str, str], Symbol] = {
+    ("flutter", "onset"): "circle",
+    ("flutter", "recovery"): "circle-open",
+    ("divergence", "onset"): "square",
+    ("divergence", "recovery"): "square-open",
+    ("divergence", "merger"): "diamond",
+}
+
+_WORDS = {
+    ("flutter", "onset"): "flutter begins",
+    ("flutter", "recovery"): "flutter ends",
+    ("divergence", "onset"): "divergence begins",
+    ("divergence", "recovery"): "divergence ends",
+    ("divergence", "merger"): "flutter turns into divergence (merger)",
+}
+
+
+def words(row: FlutterRow) -> str:
+    """Return what happens at a flutter point, e.g. ``flutter begins``."""
+    return _WORDS.get((row.kind, row.event), f"{row.kind} {row.event}")
+
+
+def color_of(row: FlutterRow, colors: dict[str, str]) -> str:
+    """Return the colour role: of the mode for flutter, its own for divergence."""
+    return colors.get(row.mode_name, "ink") if row.kind == "flutter" else "divergence"
+
+
+def hover_text(row: FlutterRow) -> str:
+    """Return all that is known about a point, for hovering."""
+    parts = [f"<b>{words(row)}</b>", f"{row.speed:.4g} m/s"]
+    if row.kind == "flutter":
+        parts += [f"{row.frequency:.4g} Hz", f"mode {row.mode_name}"]
+        parts += [row.classification] if row.classification else []
+        if math.isfinite(row.strength):
+            parts.append(f"strength {row.strength:.3g} s/m")
+    return "<br>".join(parts)
+
+
+def event_marks(
+    rows: Sequence[FlutterRow],
+    x: Sequence[float],
+    y: Sequence[float],
+    colors: dict[str, str],
+    by_mode: bool = False,
+) -> list[Marks]:
+    """Return the marks of flutter points at (x, y), one group for each entry of the legend.
+
+    Parameters
+    ----------
+    rows : sequence of FlutterRow
+    x, y : sequence of float
+        Where each point stands.
+    colors : dict
+        Colour role of each mode name.
+    by_mode : bool
+        Whether the legend names the modes.
+    """
+    groups: dict[tuple[str, str, str, str], list[int]] = {}
+    for index, row in enumerate(rows):
+        label = words(row)
+        if by_mode and row.kind == "flutter":
+            label += f", mode {row.mode_name}"
+        key = (row.kind, row.event, label, color_of(row, colors))
+        groups.setdefault(key, []).append(index)
+    return [
+        Marks(
+            np.array([x[index] for index in members], float),
+            np.array([y[index] for index in members], float),
+            _SYMBOLS.get((kind, event), "x"),
+            color,
+            label,
+            6.5,
+            [hover_text(rows[index]) for index in members],
+        )
+        for (kind, event, label, color), members in sorted(groups.items(), key=_legend_order)
+    ]
+
+
+def _legend_order(group: tuple[tuple[str, str, str, str], list[int]]) -> tuple[bool, str, str]:
+    kind, event, label, _ = group[0]
+    return kind != "flutter", label.rpartition("mode ")[2], event

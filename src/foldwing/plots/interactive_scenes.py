@@ -1,0 +1,194 @@
+"""Views in space, still or as a film, as plotly JSON."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from foldwing.plots.interactive import Json, base_layout, color_scale, numbers
+from foldwing.plots.picture import Picture, Scene, Surface, Tag, Thread
+
+_HEIGHT = 300
+_FILM_HEIGHT = 460
+_FRAME_MILLISECONDS = 50
+_CYCLES = 20
+_ZOOM, _FILM_ZOOM = 2.0, 2.6
+"""Length of the longest side of the box in the view."""
+_EYE = {"x": 1.15, "y": -0.90, "z": 0.65}
+
+
+def scenes_figure(picture: Picture) -> Json:
+    """Return scenes side by side, or one with the buttons that play its film."""
+    scenes = [scene for scene in picture.panels if isinstance(scene, Scene)]
+    rows = -(-len(scenes) // picture.columns)
+    layout = base_layout() | {
+        "margin": {"l": 0, "r": 0, "t": 30, "b": 8},
+        "height": _FILM_HEIGHT if picture.frames else rows * _HEIGHT,
+        "annotations": [],
+        "showlegend": False,
+    }
+    data: list[Json] = []
+    for number, scene in enumerate(scenes):
+        name = "scene" if number == 0 else f"scene{number + 1}"
+        domain = _domain(number, picture.columns, rows)
+        layout[name] = _axes(scene, domain, _FILM_ZOOM if picture.frames else _ZOOM)
+        layout["annotations"] += [_title(scene.title, domain)] if scene.title else []
+        data += [{**_TRACES[type(item)](item), "scene": name} for item in scene.items]
+    if picture.frames:
+        layout["updatemenus"] = [_buttons(len(picture.frames))]
+    return {"data": data, "layout": layout, "frames": _frames(picture)}
+
+
+def _domain(number: int, columns: int, rows: int) -> tuple[tuple[float, float], ...]:
+    row, column = divmod(number, columns)
+    return (column / columns, (column + 1) / columns), (1 - (row + 1) / rows, 1 - row / rows)
+
+
+def _axes(scene: Scene, domain: tuple[tuple[float, float], ...], zoom: float) -> Json:
+    axes = {
+        f"{letter}axis": {"visible": False, "range": list(limits), "autorange": False}
+        for letter, limits in zip("xyz", _room(scene), strict=True)
+    }
+    low, high = np.array(_room(scene)).T
+    sides = (high - low) / (high - low).max()
+    return {
+        **axes,
+        "aspectmode": "manual",
+        "aspectratio": {
+            letter: zoom * float(side) for letter, side in zip("xyz", sides, strict=True)
+        },
+        "domain": {"x": list(domain[0]), "y": [domain[1][0], domain[1][1] - 0.03]},
+        "camera": {"eye": _EYE, "projection": {"type": "orthographic"}},
+        "bgcolor": "@paper",
+    }
+
+
+def _room(scene: Scene) -> list[tuple[float, float]]:
+    """Return the box with room for the arrows and texts outside it."""
+    points = [item.points for item in scene.items if isinstance(item, Thread)]
+    points += [item.point[None] for item in scene.items if isinstance(item, Tag)]
+    corners = np.concatenate([np.array(scene.box).T, *points])
+    return [(float(low), float(high)) for low, high in zip(*_extent(corners), strict=True)]
+
+
+def _extent(points: Any) -> tuple[Any, Any]:
+    return points.min(axis=0), points.max(axis=0)
+
+
+def _title(text: str, domain: tuple[tuple[float, float], ...]) -> Json:
+    return {
+        "text": f"<b>{text}</b>",
+        "x": sum(domain[0]) / 2,
+        "y": domain[1][1],
+        "xref": "paper",
+        "yref": "paper",
+        "xanchor": "center",
+        "yanchor": "top",
+        "showarrow": False,
+        "font": {"size": 13},
+    }
+
+
+def _surface(surface: Surface) -> Json:
+    trace: Json = {
+        "type": "surface",
+        "x": numbers(surface.x),
+        "y": numbers(surface.y),
+        "z": numbers(surface.z),
+        "opacity": surface.opacity,
+        "showscale": False,
+        "hoverinfo": "skip",
+        "contours": {f"{letter}": {"highlight": False} for letter in "xyz"},
+        "lighting": {"ambient": 0.85, "diffuse": 0.3, "specular": 0.02},
+    }
+    if surface.values is None:
+        plain = f"@{surface.color}"
+        return trace | {
+            "surfacecolor": numbers(np.zeros_like(surface.x)),
+            "colorscale": [[0.0, plain], [1.0, plain]],
+        }
+    return trace | {
+        "surfacecolor": numbers(surface.values),
+        "colorscale": color_scale("diverging"),
+        "cmin": surface.limits[0],
+        "cmax": surface.limits[1],
+    }
+
+
+def _thread(thread: Thread) -> Json:
+    x, y, z = thread.points.T
+    trace: Json = {
+        "type": "scatter3d",
+        "mode": "lines",
+        "x": numbers(x),
+        "y": numbers(y),
+        "z": numbers(z),
+        "opacity": thread.opacity,
+        "hoverinfo": "skip",
+        "line": {"color": f"@{thread.color}", "width": 2.5 * thread.width},
+    }
+    if thread.arrow:  # a triangle of markers would not turn with the view: draw the barbs
+        tip, start = thread.points[-1], thread.points[0]
+        back = tip - 0.25 * (tip - start)
+        side = 0.1 * np.linalg.norm(tip - start) * np.array([0.0, 1.0, 0.0])
+        path = np.stack([start, tip, back + side, tip, back - side])
+        trace |= {letter: numbers(path[:, i]) for i, letter in enumerate("xyz")}
+    return trace
+
+
+def _tag(tag: Tag) -> Json:
+    return {
+        "type": "scatter3d",
+        "mode": "text",
+        "text": [tag.text],
+        **{letter: [float(value)] for letter, value in zip("xyz", tag.point, strict=True)},
+        "textfont": {"color": f"@{tag.color}", "size": 12},
+        "hoverinfo": "skip",
+    }
+
+
+_TRACES: Mapping[type, Callable[[Any], Json]] = {Surface: _surface, Thread: _thread, Tag: _tag}
+
+
+def _frames(picture: Picture) -> list[Json]:
+    """Return one frame for each step; only what moves is in it."""
+    return [
+        {
+            "name": str(number),
+            "traces": list(range(len(frame))),
+            "data": [
+                {
+                    "type": "surface",
+                    "x": numbers(surface.x),
+                    "y": numbers(surface.y),
+                    "z": numbers(surface.z),
+                    "surfacecolor": numbers(surface.values),
+                }
+                for surface in frame
+            ],
+        }
+        for number, frame in enumerate(picture.frames)
+    ]
+
+
+def _buttons(count: int) -> Json:
+    duration = {"duration": _FRAME_MILLISECONDS, "redraw": True}
+    play = {"frame": duration, "transition": {"duration": 0}, "mode": "immediate"}
+    stop = {"frame": {"duration": 0}, "mode": "immediate"}
+    names = [str(number) for number in range(count)] * _CYCLES
+    return {
+        "type": "buttons",
+        "direction": "left",
+        "x": 0.01,
+        "y": 0.02,
+        "xanchor": "left",
+        "yanchor": "bottom",
+        "showactive": False,
+        "bgcolor": "@paper",
+        "bordercolor": "@muted",
+        "font": {"color": "@ink"},
+        "buttons": [
+            {"label": "▶ play", "method": "animate", "args": [names, play]},
+            {"label": "■ stop", "method": "animate", "args": [[None], stop]},
+        ],
+    }

@@ -1,0 +1,218 @@
+"""The folded wing in space: shapes of its modes, and its motion at flutter."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from foldwing.plots.layout import subtitle
+from foldwing.plots.picture import Array, Picture, Range, Scene, Surface, Tag, Thread
+from foldwing.results.flutter_table import FlutterRow, flutter_rows
+from foldwing.results.summary import fold_text
+
+if TYPE_CHECKING:
+    import xarray
+
+_MOST_MODES = 6
+_AMPLITUDE = 0.16
+"""Largest displacement drawn, as a share of the size of the wing."""
+_PHASES = 6
+_FRAMES = 24
+_PER_SEGMENT = tuple[Array, ...]
+
+
+def mode_shapes(dataset: "xarray.Dataset") -> Picture | None:
+    """Draw the first six mode shapes, of the case in the middle of a sweep."""
+    if "mode_shape" not in dataset or "position" not in dataset:
+        return None
+    case = _shown_case(dataset)
+    if case is None:
+        return None
+    where = fold_text(dataset, case)
+    rest = _segments(dataset, dataset["position"].values[case])
+    frequency = dataset["natural_frequency"].values[case]
+    names = dataset["mode_name"].values[case]
+    shapes = dataset["mode_shape"].values[case]
+    modes = np.argsort(frequency)[: np.isfinite(frequency).sum()][:_MOST_MODES]
+    moved = [_scaled(_segments(dataset, shapes[mode]), rest) for mode in modes]
+    box = _box(rest, [_added(rest, motion) for motion in moved])
+    scenes = [
+        Scene(
+            f"{names[mode]}: {frequency[mode]:.3g} Hz",
+            [*_at_rest(rest), *_deformed(rest, motion), *_signs(rest)],
+            box,
+        )
+        for mode, motion in zip(modes, moved, strict=True)
+    ]
+    return Picture(
+        "mode-shapes",
+        f"The shapes in which the wing vibrates in still air{f', at {where}' if where else ''}",
+        subtitle(dataset) + ". Grey: at rest. Coloured: at the extreme of the motion (red up, "
+        "blue down, across the sheet). Its size is arbitrary. The thick line is the fixed root.",
+        scenes,
+        columns=3 if len(scenes) > 2 else len(scenes),
+    )
+
+
+def flutter_phases(dataset: "xarray.Dataset") -> Picture | None:
+    """Draw the flutter motion with the lowest onset in steps over one cycle."""
+    found = flutter_motions(dataset)
+    if not found:
+        return None
+    row, rest, motion, box = found[0]
+    scenes = []
+    for step in range(_PHASES):
+        now = _at_phase(motion, step / _PHASES)
+        ghosts = [
+            Thread(line, "muted", 0.7, 0.35)
+            for other in range(_PHASES)
+            if other != step
+            for line in _outline(_added(rest, _at_phase(motion, other / _PHASES)))
+        ]
+        time = "" if row.frequency <= 0 else f" ({1000 * step / _PHASES / row.frequency:.0f} ms)"
+        title = f"{step}/{_PHASES} of the cycle{time}"
+        scenes.append(Scene(title, [*ghosts, *_deformed(rest, now), *_signs(rest)], box))
+    return Picture(
+        "flutter-motion",
+        f"One cycle of the flutter motion at {row.speed:.3g} m/s and {row.frequency:.3g} Hz",
+        _motion_caption(dataset, row) + " Thin outlines: the other steps.",
+        scenes,
+        columns=3,
+    )
+
+
+def flutter_films(dataset: "xarray.Dataset", most: int = 3) -> list[Picture]:
+    """Return the motions at the lowest flutter onsets as films of one cycle."""
+    films = []
+    for number, (row, rest, motion, box) in enumerate(flutter_motions(dataset)[:most]):
+        frames = [
+            list(_deformed(rest, _at_phase(motion, step / _FRAMES))) for step in range(_FRAMES)
+        ]
+        still = [*_at_rest(rest), *_signs(rest)]
+        films.append(
+            Picture(
+                f"flutter-film-{number + 1}",
+                f"The flutter motion at {row.speed:.3g} m/s and {row.frequency:.3g} Hz",
+                _motion_caption(dataset, row) + " Grey: the wing at rest.",
+                [Scene("", [*frames[0], *still], box)],
+                frames=frames,
+            )
+        )
+    return films
+
+
+Motion = tuple[FlutterRow, _PER_SEGMENT, _PER_SEGMENT, tuple[Range, Range, Range]]
+
+
+def flutter_motions(dataset: "xarray.Dataset") -> list[Motion]:
+    """Return (point, positions at rest, complex motion, box) of each flutter onset by speed."""
+    if "flutter_shape" not in dataset or "position" not in dataset:
+        return []
+    shapes, found = dataset["flutter_shape"].values, []
+    for index, row in enumerate(flutter_rows(dataset)):
+        usable = np.isfinite(shapes[index]).all() and np.abs(shapes[index]).max() > 0
+        if (row.kind, row.event) == ("flutter", "onset") and usable:
+            rest = _segments(dataset, dataset["position"].values[row.case])
+            motion = _scaled(_segments(dataset, shapes[index]), rest)
+            turned = [_added(rest, _at_phase(motion, step / _FRAMES)) for step in range(_FRAMES)]
+            found.append((row, rest, motion, _box(rest, turned)))
+    return sorted(found, key=lambda entry: entry[0].speed)
+
+
+def _motion_caption(dataset: "xarray.Dataset", row: FlutterRow) -> str:
+    return (
+        subtitle(dataset, fold_text(dataset, row.case), f"mode {row.mode_name}")
+        + ". Red moves up, blue down, across the sheet; the size is arbitrary."
+    )
+
+
+def _shown_case(dataset: "xarray.Dataset") -> int | None:
+    """Return the case in the middle of those that have shapes."""
+    whole = np.isfinite(dataset["mode_shape"].values).all(axis=(2, 3)).any(axis=1)
+    whole &= np.isfinite(dataset["natural_frequency"].values).any(axis=1)
+    usable = np.flatnonzero(whole & np.isfinite(dataset["position"].values).all(axis=(1, 2)))
+    return int(usable[len(usable) // 2]) if usable.size else None
+
+
+def _segments(dataset: "xarray.Dataset", values: Array) -> _PER_SEGMENT:
+    """Return values on (point, axis) as one grid (span, chord, axis) for each segment."""
+    segment = dataset["segment"].values
+    spanwise, chordwise = dataset["spanwise"].values, dataset["chordwise"].values
+    grids = []
+    for number in np.unique(segment):
+        own = segment == number
+        grid = np.full((spanwise[own].max() + 1, chordwise[own].max() + 1, 3), np.nan, values.dtype)
+        grid[spanwise[own], chordwise[own]] = values[own]
+        grids.append(grid)
+    return tuple(grids)
+
+
+def _size(rest: _PER_SEGMENT) -> float:
+    """Largest extent of the wing along an axis."""
+    points = np.concatenate([grid.reshape(-1, 3) for grid in rest])
+    return float(np.ptp(points, axis=0).max())
+
+
+def _scaled(motion: _PER_SEGMENT, rest: _PER_SEGMENT) -> _PER_SEGMENT:
+    """Scale a motion to be seen well; its largest normal displacement is up."""
+    normal = [_normal_part(m, r) for m, r in zip(motion, rest, strict=True)]
+    flat = np.concatenate([part.ravel() for part in normal])
+    extreme = flat[np.argmax(np.abs(flat))]
+    largest = max(float(np.abs(grid).max()) for grid in motion)
+    if largest == 0:
+        return motion
+    turn = np.conj(extreme) / abs(extreme) if extreme != 0 else 1.0
+    return tuple(grid * (turn * _AMPLITUDE * _size(rest) / largest) for grid in motion)
+
+
+def _normal_part(motion: Array, rest: Array) -> Array:
+    """Displacement along the normal of the sheet, which points up when the wing is unfolded."""
+    chord, span = rest[0, -1] - rest[0, 0], rest[-1, 0] - rest[0, 0]
+    normal = np.cross(chord, span)
+    part: Array = motion @ (normal / (np.linalg.norm(normal) or 1.0))
+    return part
+
+
+def _at_phase(motion: _PER_SEGMENT, turn: float) -> _PER_SEGMENT:
+    return tuple((grid * np.exp(2j * np.pi * turn)).real for grid in motion)
+
+
+def _added(rest: _PER_SEGMENT, motion: _PER_SEGMENT) -> _PER_SEGMENT:
+    return tuple(a + b for a, b in zip(rest, motion, strict=True))
+
+
+def _at_rest(rest: _PER_SEGMENT) -> Iterator[Surface]:
+    for grid in rest:
+        yield Surface(grid[..., 0], grid[..., 1], grid[..., 2], opacity=0.35)
+
+
+def _deformed(rest: _PER_SEGMENT, motion: _PER_SEGMENT) -> Iterator[Surface]:
+    limit = _AMPLITUDE * _size(rest)
+    for still, moving in zip(rest, motion, strict=True):
+        place = still + moving
+        values = _normal_part(moving, still)
+        yield Surface(place[..., 0], place[..., 1], place[..., 2], values, (-limit, limit))
+
+
+def _outline(grids: _PER_SEGMENT) -> Iterator[Array]:
+    for grid in grids:
+        yield np.concatenate([grid[0], grid[1:, -1], grid[-1, -2::-1], grid[-2::-1, 0]])
+
+
+def _signs(rest: _PER_SEGMENT) -> Iterator[Thread | Tag]:
+    """Return an arrow along the air stream, and the clamped root."""
+    size = _size(rest)
+    root = rest[0][0]
+    yield Thread(root[[0, -1]], "ink", 2.0)
+    y, z = root[0, 1] - 0.10 * size, root[0, 2]
+    stream = np.array([[root[:, 0].min() + along * size, y, z] for along in (-0.12, 0.20)])
+    yield Thread(stream, "ink", 1.3, arrow=True)
+    yield Tag(stream[0] - [0.02 * size, 0.04 * size, 0.0], "air", "ink")
+
+
+def _box(rest: _PER_SEGMENT, moved: list[_PER_SEGMENT]) -> tuple[Range, Range, Range]:
+    points = np.concatenate([g.reshape(-1, 3) for grids in (rest, *moved) for g in grids])
+    room = 0.02 * _size(rest)
+    low, high = np.nanmin(points, axis=0) - room, np.nanmax(points, axis=0) + room
+    x, y, z = ((float(a), float(b)) for a, b in zip(low, high, strict=True))
+    return x, y, z

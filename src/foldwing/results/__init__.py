@@ -1,0 +1,47 @@
+"""Results: one labelled dataset per run, written whole with its provenance.
+
+===================  ==========================================================================
+`schema`             every variable: dimensions, unit, meaning; `build_dataset`
+`flutter_table`      the table of flutter points, as rows and as variables
+`provenance`         version, model, options and date, carried by every dataset
+`summary`            the answer and the certificate in one line each
+`writing`            netCDF and CSV
+`folders`            result folders: whole or not at all, never over something else
+===================  ==========================================================================
+"""
+
+from foldwing.results.flutter_table import FlutterRow, flutter_rows, table_variables
+from foldwing.results.folders import check_writable, default_folder, result_folder
+from foldwing.results.provenance import Source, model_hash, package_version, provenance
+from foldwing.results.schema import VARIABLES, build_dataset, fold_angle_names
+from foldwing.results.summary import answer, certificate
+from foldwing.results.writing import (
+    DATASET_FILE,
+    read_dataset,
+    write_csv,
+    write_dataset,
+    write_frequencies_csv,
+)
+
+__all__ = [
+    "DATASET_FILE",
+    "VARIABLES",
+    "FlutterRow",
+    "Source",
+    "answer",
+    "build_dataset",
+    "certificate",
+    "check_writable",
+    "default_folder",
+    "flutter_rows",
+    "fold_angle_names",
+    "model_hash",
+    "package_version",
+    "provenance",
+    "read_dataset",
+    "result_folder",
+    "table_variables",
+    "write_csv",
+    "write_dataset",
+    "write_frequencies_csv",
+]

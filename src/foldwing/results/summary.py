@@ -1,0 +1,163 @@
+"""What a result says, in one line each: the answer and how far it can be trusted."""
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from foldwing.results.flutter_table import FlutterRow, flutter_rows
+from foldwing.results.schema import fold_angle_names
+from foldwing.stability.status import Status
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def answer(dataset: "xarray.Dataset") -> str:
+    """Return the result in one line."""
+    if dataset.attrs["kind"] == "modes":
+        return _modes_answer(dataset)
+    if dataset.sizes.get("fold", 1) > 1:
+        return _boundary_answer(dataset)
+    return _flutter_answer(dataset)
+
+
+def certificate(dataset: "xarray.Dataset") -> str:
+    """Return which cases are certified, from which airspeed on, and which are not."""
+    if "certified" not in dataset:
+        return ""
+    failed, doubtful = failed_cases(dataset), uncertified_cases(dataset)
+    total = dataset.sizes["fold"]
+    good = total - len(doubtful) - len(failed)
+    share = "This case is" if total == good == 1 else f"{good} of {total} cases are"
+    text = (
+        f"{share} certified: an independent count (the argument principle) finds as many unstable "
+        "eigenvalues as are listed. Nothing is claimed about how many stable ones there are."
+    )
+    parts = [text] if good else []
+    parts += [f"Not certified: {_case_list(dataset, doubtful)}."] if doubtful else []
+    parts += [f"Failed: {_case_list(dataset, failed)}."] if failed else []
+    return " ".join([*parts, *_validity(dataset)])
+
+
+def failed_cases(dataset: "xarray.Dataset") -> list[int]:
+    """Return the cases without a result."""
+    if "case_status" not in dataset:
+        return []
+    return np.flatnonzero(dataset["case_status"].values == int(Status.FAILED)).tolist()
+
+
+def uncertified_cases(dataset: "xarray.Dataset") -> list[int]:
+    """Return the cases that have a result but no certificate."""
+    if "certified" not in dataset:
+        return []
+    failed = set(failed_cases(dataset))
+    return [
+        case for case in np.flatnonzero(~dataset["certified"].values).tolist() if case not in failed
+    ]
+
+
+def critical_row(rows: Sequence[FlutterRow]) -> FlutterRow | None:
+    """Return the onset at the lowest airspeed, flutter or divergence."""
+    onsets = [row for row in rows if row.event == "onset" and math.isfinite(row.speed)]
+    return min(onsets, key=lambda row: row.speed, default=None)
+
+
+def fold_text(dataset: "xarray.Dataset", case: int) -> str:
+    """Return the fold angles of a case, e.g. ``fold 30°, −30°``; empty without hinges."""
+    angles = [float(dataset[name][case]) for name in fold_angle_names(dataset)]
+    if not angles:
+        return "" if dataset.sizes["fold"] == 1 else f"case {case}"
+    return "fold " + ", ".join(degrees(angle) for angle in angles)
+
+
+def degrees(angle: float) -> str:
+    """Return an angle as text, e.g. ``−30°``."""
+    return f"{angle + 0.0:g}°".replace("-", "−")
+
+
+def _modes_answer(dataset: "xarray.Dataset") -> str:
+    frequencies = dataset["natural_frequency"].values
+    if not np.isfinite(frequencies).any():
+        return "No natural frequencies were found."
+    case, mode = np.unravel_index(np.nanargmin(frequencies), frequencies.shape)
+    name = dataset["mode_name"].values[case, mode]
+    where = _listed(f"mode {name}", fold_text(dataset, int(case)))
+    return f"The lowest natural frequency is {frequencies[case, mode]:.3g} Hz ({where})."
+
+
+def _flutter_answer(dataset: "xarray.Dataset") -> str:
+    rows = flutter_rows(dataset)
+    first = {
+        kind: critical_row([row for row in rows if row.kind == kind])
+        for kind in ("flutter", "divergence")
+    }
+    parts = [_onset(row, rows) for row in first.values() if row is not None]
+    if parts:
+        text = "; ".join(parts)
+        return f"{text[0].upper()}{text[1:]}."
+    return _nothing_found(dataset)
+
+
+def _boundary_answer(dataset: "xarray.Dataset") -> str:
+    row = critical_row(flutter_rows(dataset))
+    total = dataset.sizes["fold"]
+    if row is None:
+        return _nothing_found(dataset)
+    what = f"mode {row.mode_name} at {row.frequency:.3g} Hz" if row.kind == "flutter" else ""
+    detail = _listed(row.kind, fold_text(dataset, row.case), what)
+    return f"The lowest speed of instability in {total} cases is {row.speed:.3g} m/s ({detail})."
+
+
+def _nothing_found(dataset: "xarray.Dataset") -> str:
+    """Claim stability only of the cases that are certified."""
+    total = dataset.sizes["fold"]
+    failed, doubtful = len(failed_cases(dataset)), len(uncertified_cases(dataset))
+    if failed == total:
+        return "The computation failed." if total == 1 else f"All {total} cases failed."
+    text = f"No flutter or divergence found{_limit(dataset)}"
+    if total > 1:
+        text += f" in {total - failed} of {total} cases"
+    if not doubtful:
+        return f"{text}."
+    which = "the case is" if total == 1 else f"{doubtful} {'is' if doubtful == 1 else 'are'}"
+    return f"{text}, but {which} not certified."
+
+
+def _listed(*parts: str) -> str:
+    return ", ".join(filter(None, parts))
+
+
+def _onset(row: FlutterRow, rows: Sequence[FlutterRow]) -> str:
+    if row.kind == "divergence":
+        return f"divergence begins at {row.speed:.3g} m/s"
+    begin = f"flutter begins at {row.speed:.3g} m/s with {row.frequency:.3g} Hz"
+    text = f"{begin} (mode {row.mode_name}"
+    end = [
+        other.speed
+        for other in rows
+        if other.event == "recovery" and other.branch == row.branch and other.speed > row.speed
+    ]
+    return f"{text}, a hump that ends at {min(end):.3g} m/s)" if end else f"{text})"
+
+
+def _limit(dataset: "xarray.Dataset") -> str:
+    if "speed_limit" in dataset.attrs:
+        return f" up to {float(dataset.attrs['speed_limit']):.3g} m/s"
+    if "speed" in dataset.coords and dataset.sizes["speed"]:
+        return f" up to {float(dataset['speed'][-1]):.3g} m/s"
+    return ""
+
+
+def _validity(dataset: "xarray.Dataset") -> list[str]:
+    if "valid_from" not in dataset:
+        return []
+    lowest = dataset["valid_from"].values
+    lowest = lowest[np.isfinite(lowest)]
+    return [f"The result holds from {lowest.max():.3g} m/s on."] if lowest.size else []
+
+
+def _case_list(dataset: "xarray.Dataset", cases: Sequence[int], most: int = 12) -> str:
+    named = "; ".join(fold_text(dataset, case) for case in cases[:most])
+    return named if len(cases) <= most else f"{named}; and {len(cases) - most} more"

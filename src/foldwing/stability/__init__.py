@@ -1,0 +1,1 @@
+"""Stability solvers for matrix functions T(p; U). Nothing in here knows of wings."""

@@ -1,0 +1,226 @@
+"""Eigenvalues of the pencil along a path of reduced Laplace variables, followed as branches.
+
+At fixed p the problem T0 + U T1 + U^2 T2 is singular at a few airspeeds. With V = U^2 (undamped) or
+V = U (with structural damping), det T(p, U) is a constant times the product of 1 - V s_j(p), where
+the s_j are the eigenvalues 1/V of the pencil. One set of s_j(p) along a path therefore gives the
+determinant on that path *for every airspeed at once*.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from foldwing.maths.arrays import Complex, Mask, Real
+from foldwing.stability.problem import AeroelasticProblem, Pencil
+
+
+@dataclass(frozen=True)
+class EigenvaluePath:
+    """Inverse speeds s_j along a path, in matched columns.
+
+    Attributes
+    ----------
+    parameter : array, shape (m,)
+        Position along the path, ascending.
+    p : array of complex, shape (m,)
+    inverse : array of complex, shape (m, r)
+        s_j(p): T(p, U) is singular where U^power = 1/s_j.
+    constant : array of complex, shape (m,)
+        det T0, scaled to unit size: the part of det T that no airspeed changes.
+    power : int
+        2 without structural damping, else 1.
+    floor : float
+        Inverse speeds below this belong to airspeeds of no interest and are matched loosely.
+    """
+
+    parameter: Real
+    p: Complex
+    inverse: Complex
+    constant: Complex
+    power: int
+    floor: float
+
+
+def inverse_speeds(pencil: Pencil) -> tuple[Complex, int]:
+    """Return the inverse speeds s_j, shape (m, n power-dependent), and the power of U.
+
+    Undamped: the n eigenvalues of -T0^-1 T2, s = 1/U^2. Damped: the 2 n of the companion matrix,
+    s = 1/U.
+    """
+    T0, T1, T2 = _real_if_possible(pencil)
+    solve = _solver(T0)
+    if T1 is None:
+        return np.asarray(np.linalg.eigvals(-solve(T2)), complex), 2
+    m, n, _ = T2.shape
+    companion = np.zeros((m, 2 * n, 2 * n), T2.dtype)
+    companion[:, :n, :n] = -solve(T1)
+    companion[:, :n, n:] = -solve(T2)
+    companion[:, n:, :n] = np.eye(n)
+    return np.asarray(np.linalg.eigvals(companion), complex), 1
+
+
+def _real_if_possible(pencil: Pencil) -> Pencil:
+    """Return a real pencil (on the real axis) as real arrays: four times faster to solve."""
+    if pencil.constant.imag.any() or pencil.quadratic.imag.any():
+        return pencil
+    real = (None if part is None else part.real for part in pencil)
+    return Pencil._make(real)
+
+
+def _solver(T0: Complex) -> Callable[[Complex], Complex]:
+    """Return B -> T0^-1 B; nothing to do for the usual unit stiffness."""
+    if T0.ndim == 2:
+        if np.array_equal(T0, np.eye(len(T0))):
+            return lambda B: B
+        inverse = np.linalg.inv(T0)
+        return lambda B: inverse @ B
+    return lambda B: np.linalg.solve(T0, B)
+
+
+def follow_path(
+    problem: AeroelasticProblem,
+    point: Callable[[Real], Complex],
+    parameter: Real,
+    fastest: float,
+) -> EigenvaluePath:
+    """Compute the inverse speeds along a path and match them from point to point.
+
+    Parameters
+    ----------
+    problem : AeroelasticProblem
+    point : callable
+        p as a function of the path parameter.
+    parameter : array, shape (m,)
+        Ascending.
+    fastest : float
+        Highest airspeed of interest in m/s.
+    """
+    p = point(parameter)
+    inverse, constant, power = _at(problem, p)
+    floor = fastest**-power
+    return EigenvaluePath(parameter, p, _matched(inverse, floor), constant, power, floor)
+
+
+def refined(
+    problem: AeroelasticProblem,
+    path: EigenvaluePath,
+    point: Callable[[Real], Complex],
+    extra: Real,
+) -> EigenvaluePath:
+    """Return the path with the parameters ``extra`` inserted."""
+    p = point(extra)
+    inverse, constant, _ = _at(problem, p)
+    parameter = np.concatenate([path.parameter, extra])
+    order = np.argsort(parameter, kind="stable")
+    return replace(
+        path,
+        parameter=parameter[order],
+        p=np.concatenate([path.p, p])[order],
+        inverse=_matched(np.vstack([path.inverse, inverse])[order], path.floor),
+        constant=np.concatenate([path.constant, constant])[order],
+    )
+
+
+def _at(problem: AeroelasticProblem, p: Complex) -> tuple[Complex, Complex, int]:
+    pencil = problem.pencil(p)
+    inverse, power = inverse_speeds(pencil)
+    if pencil.constant.ndim == 2:
+        return inverse, np.ones_like(p), power
+    return inverse, np.linalg.slogdet(pencil.constant)[0], power
+
+
+def _matched(inverse: Complex, floor: float) -> Complex:
+    """Reorder each row so that its eigenvalues continue those of the row before."""
+    before, after = inverse[:-1, :, None], inverse[1:, None, :]
+    cost = np.abs(before - after) / (np.abs(before) + np.abs(after) + floor)
+    nearest = cost.argmin(axis=2)
+    ambiguous = (np.diff(np.sort(nearest, axis=1), axis=1) == 0).any(axis=1)
+    for step in np.flatnonzero(ambiguous):
+        nearest[step] = linear_sum_assignment(cost[step])[1]
+    order = np.arange(inverse.shape[1])
+    result = np.empty_like(inverse)
+    result[0] = inverse[0]
+    for row, following in enumerate(nearest, start=1):
+        order = following[order]
+        result[row] = inverse[row, order]
+    return result
+
+
+def winding(path: EigenvaluePath, speeds: Real) -> tuple[Real, Mask]:
+    """Change of arg det T along the path at each airspeed.
+
+    Each factor 1 - V s of the determinant vanishes where L = log(V s) does. The branches are nearly
+    straight in L, whatever the scale of k, so that the chord in L tells on which side the factor
+    passes zero; the factor itself gives the exact angle.
+
+    Parameters
+    ----------
+    path : EigenvaluePath
+    speeds : array, shape (u,)
+
+    Returns
+    -------
+    turns : array, shape (u,)
+        Change of the argument in radians.
+    doubtful : array of bool, shape (u, m - 1)
+        Steps of the path on which the argument is not beyond doubt: L turns about zero by more than
+        0.8 rad and its chord passes nearer to zero than twice the estimated bend of the branch.
+        Refine the path there.
+    """
+    V = speeds[:, None, None] ** path.power
+    factors = 1.0 - V * path.inverse
+    angle = np.angle(factors[:, 1:] / factors[:, :-1])
+    step = _logarithmic_steps(path)
+    start = np.log(path.inverse[:-1] + TINY) + np.log(V)
+    turn = np.angle((start + step) / start)
+    near = _distance_from_zero(start, step) < 2.0 * bend(path)
+    doubtful = (near & (np.abs(turn) > CERTAIN_TURN)).any(axis=2)
+    angle += 2.0 * np.pi * np.rint((turn - angle) / (2.0 * np.pi))
+    constant = np.angle(path.constant[1:] / path.constant[:-1])
+    doubtful |= np.abs(constant) > CERTAIN_TURN
+    return angle.sum(axis=(1, 2)) + constant.sum(), doubtful
+
+
+CERTAIN_TURN = 0.8
+"""Radians: the argument of a factor that turns by less between two points is beyond doubt."""
+
+TINY = 1e-300
+"""Keeps the logarithm of an inverse speed of zero finite."""
+
+
+def _logarithmic_steps(path: EigenvaluePath) -> Complex:
+    return np.log((path.inverse[1:] + TINY) / (path.inverse[:-1] + TINY))
+
+
+def _distance_from_zero(start: Complex, step: Complex) -> Real:
+    """Distance of the origin from the chord start .. start + step."""
+    length2 = np.maximum(np.abs(step) ** 2, TINY)
+    along = np.clip(-(start * step.conj()).real / length2, 0.0, 1.0)
+    return np.asarray(np.abs(start + along * step))
+
+
+def bend(path: EigenvaluePath) -> Real:
+    """Estimate how far log s strays from the chord of each step, shape (m - 1, r).
+
+    From divided second differences at both ends of the step; at least a thousandth of the chord.
+    """
+    t, steps = path.parameter, _logarithmic_steps(path)
+    width = np.diff(t)[:, None]
+    second = np.abs(np.diff(steps / width, axis=0)) / (t[2:] - t[:-2])[:, None]
+    ends = np.vstack([second[:1], second, second[-1:]])
+    curvature = np.maximum(ends[:-1], ends[1:])
+    return np.asarray(np.maximum(curvature * width**2 / 4.0, 0.001 * np.abs(steps)))
+
+
+def crowded(inverse: Complex) -> Mask:
+    """Return where two branches of opposite sign of Im s may be confused in a step, (m - 1, r).
+
+    One of them moves more than half the way to the other.
+    """
+    s = inverse[:-1]
+    apart = np.abs(s[:, :, None] - s[:, None, :])
+    opposite = s.imag[:, :, None] * s.imag[:, None, :] < 0.0
+    nearest = np.where(opposite, apart, np.inf).min(axis=2)
+    return np.asarray(np.abs(np.diff(inverse, axis=0)) > 0.5 * nearest)

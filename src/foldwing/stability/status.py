@@ -1,0 +1,108 @@
+"""Status values and the results that every stability solver shares."""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+from foldwing.maths.arrays import Complex, Real
+
+
+class Status(IntEnum):
+    """How a computation of one point, branch or case ended."""
+
+    OK = 0
+    NOT_CONVERGED = 1
+    """Newton's method did not reach its tolerance: try smaller steps in airspeed."""
+    LEFT_DOMAIN = 2
+    """The root reached the branch cut of the aerodynamics (an overdamped motion): no oscillating
+    root is left on this branch."""
+    COLLAPSED = 3
+    """Two branches met on one root and could not be told apart: try smaller steps in airspeed."""
+    UNCERTIFIED = 4
+    """The roots found do not match the count of the argument principle."""
+    ABSENT = 5
+    """The branch does not exist at this airspeed."""
+    FAILED = 6
+    """The computation raised an error, which is named in the log of the run."""
+
+    @property
+    def meaning(self) -> str:
+        """One word for tables and dataset attributes."""
+        return self.name.lower()
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Eigenvalues of a matrix function, the same fields for every solver.
+
+    Attributes
+    ----------
+    eigenvalues : array of complex, shape (m,)
+    vectors : array of complex, shape (n, m)
+        Right eigenvectors, unit 2-norm.
+    residuals : array, shape (m,)
+        2-norm of T x over the 1-norm of T, dimensionless.
+    status : tuple of Status, length m
+    iterations : tuple of int, length m
+    certified : bool
+        Whether the number of roots found equals the count of the argument principle.
+    count : int or None
+        That count; None when it was not made or did not settle.
+    """
+
+    eigenvalues: Complex
+    vectors: Complex
+    residuals: Real
+    status: tuple[Status, ...]
+    iterations: tuple[int, ...]
+    certified: bool = False
+    count: int | None = None
+
+
+@dataclass(frozen=True)
+class FlutterPoint:
+    """A neutrally stable state: T(p, U) x = 0 with p on the damping threshold.
+
+    Attributes
+    ----------
+    kind : str
+        ``flutter`` (Im p > 0) or ``divergence`` (p = 0; also a ``merger``).
+    event : str
+        ``onset``, ``recovery`` or ``merger`` (an unstable complex pair becomes real).
+    speed : float
+        Airspeed in m/s.
+    p : complex
+        Reduced Laplace variable lambda b / U.
+    frequency : float
+        Frequency in Hz, 0 for divergence.
+    strength : float
+        d(Re lambda/Im lambda)/dU in s/m, positive for an onset; nan for divergence.
+    vector : array of complex, shape (n,)
+        Right null vector of T, unit 2-norm.
+    residual : float
+        2-norm of T x over the 1-norm of T.
+    status : Status
+    branch : int
+        Points of one root share this number; -1 when the branch is not known.
+    classification : str
+        ``hump`` when the same branch recovers within the range, ``coalescence`` otherwise, empty
+        for recoveries, divergence and mergers.
+    mode : int
+        Index of the still-air mode that the root starts from; -1 when it is not known.
+    mode_confidence : float
+        1 when the root was followed down to low speed, below 1 when the mode is the one with the
+        largest share of kinetic energy.
+    """
+
+    kind: str
+    event: str
+    speed: float
+    p: complex
+    frequency: float
+    strength: float
+    vector: Complex
+    residual: float
+    status: Status = Status.OK
+    branch: int = -1
+    classification: str = ""
+    mode: int = -1
+    mode_confidence: float = 0.0

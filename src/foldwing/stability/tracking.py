@@ -1,0 +1,278 @@
+"""Roots followed in airspeed by Newton continuation, many branches at once.
+
+Each branch has its own step: it is halved when the correction is large, when the eigenvector turns
+too far, or when Newton's method fails, and doubled when all goes well.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.linalg
+import scipy.optimize
+
+from foldwing.maths.arrays import Complex, Indices, Mask, Real
+from foldwing.stability.newton import Roots, polish_roots
+from foldwing.stability.problem import AeroelasticProblem
+from foldwing.stability.status import Status
+
+SMALLEST_STEP = 1e-5
+"""Fraction of the way to the next speed below which a branch is given up."""
+
+LEAST_MAC = 0.8
+"""Eigenvectors of consecutive steps must be at least this alike."""
+
+LARGEST_CORRECTION = 0.05
+"""Newton may move the predicted root by this fraction of its size."""
+
+SAME_ROOT = 1e-7
+"""Relative difference below which two branches have collapsed on one root."""
+
+NEAR_REAL = 0.2
+"""A branch lost with |Im| below this fraction of its modulus has reached the real axis."""
+
+
+@dataclass(frozen=True)
+class Branches:
+    """Where r branches stand: one root each, at its own airspeed.
+
+    Attributes
+    ----------
+    speed : array, shape (r,)
+    eigenvalue : array of complex, shape (r,)
+        lambda in rad/s.
+    slope, bend : array of complex, shape (r,)
+        First derivative of lambda with respect to U and an estimate of the second.
+    right, left : array, shape (r, n)
+    residual : array, shape (r,)
+    confidence : array, shape (r,)
+        Smallest MAC of consecutive steps since the last target speed.
+    status : array of int, shape (r,)
+        Values of Status; a branch that is not OK stays where it was lost.
+    iterations : array of int, shape (r,)
+    """
+
+    speed: Real
+    eigenvalue: Complex
+    slope: Complex
+    bend: Complex
+    right: Complex
+    left: Complex
+    residual: Real
+    confidence: Real
+    status: Indices
+    iterations: Indices
+
+    @property
+    def alive(self) -> Mask:
+        """Which branches are still followed."""
+        return np.asarray(self.status == Status.OK)
+
+    def take(self, index: Indices) -> "Branches":
+        """Return the branches at the positions ``index``."""
+        return Branches(**{name: value[index] for name, value in vars(self).items()})
+
+    def put(self, index: Indices, other: "Branches") -> "Branches":
+        """Return a copy with ``other`` at the positions ``index``."""
+        fields = {}
+        for name, value in vars(self).items():
+            fields[name] = value.copy()
+            fields[name][index] = getattr(other, name)
+        return Branches(**fields)
+
+
+def branches_at(problem: AeroelasticProblem, roots: Roots) -> Branches:
+    """Return branches that start from converged roots."""
+    b, U = problem.half_chord, roots.speed
+    return Branches(
+        speed=U,
+        eigenvalue=roots.p * U / b,
+        slope=(roots.p + U * roots.p_by_speed) / b,
+        bend=np.zeros(len(U), complex),
+        right=roots.right,
+        left=roots.left,
+        residual=roots.residual,
+        confidence=np.ones(len(U)),
+        status=np.where(roots.converged, Status.OK, Status.NOT_CONVERGED).astype(int),
+        iterations=roots.iterations,
+    )
+
+
+@dataclass(frozen=True)
+class StillAirRoots:
+    """Roots at U = 0 with positive frequency, ascending.
+
+    Attributes
+    ----------
+    eigenvalue : array of complex, shape (m,)
+        lambda in rad/s.
+    vectors : array of complex, shape (m, n)
+        In the coordinates of T, unit 2-norm.
+    mode : array of int, shape (m,)
+        Column of T with the largest share of kinetic energy, each used once.
+    """
+
+    eigenvalue: Complex
+    vectors: Complex
+    mode: Indices
+
+
+def still_air_roots(problem: AeroelasticProblem) -> StillAirRoots:
+    """Solve (lambda^2 M + lambda C + K) x = 0 of the problem at rest."""
+    air = problem.still_air()
+    m = len(air.columns)
+    zero, eye = np.zeros((m, m)), np.eye(m)
+    values, vectors = scipy.linalg.eig(
+        np.block([[zero, eye], [-air.stiffness, -air.damping]]),
+        np.block([[eye, zero], [zero, air.mass]]),
+    )
+    upper = np.flatnonzero(values.imag > 0.0)
+    order = upper[np.argsort(values[upper].imag)]
+    shapes = vectors[:m, order].T
+    shapes = shapes / np.linalg.norm(shapes, axis=1, keepdims=True)
+    full = np.zeros((len(order), problem.size), complex)
+    full[:, air.columns] = shapes
+    energy = np.abs(shapes) ** 2 * np.diag(air.mass)
+    _, columns = scipy.optimize.linear_sum_assignment(-energy / energy.sum(axis=1, keepdims=True))
+    return StillAirRoots(values[order], full, air.columns[columns])
+
+
+def advance(
+    problem: AeroelasticProblem, branches: Branches, target: float, first_step: float = 1.0
+) -> Branches:
+    """Follow every living branch to the airspeed ``target``.
+
+    Parameters
+    ----------
+    problem : AeroelasticProblem
+    branches : Branches
+    target : float
+        Airspeed in m/s, above or below the present ones.
+    first_step : float
+        First step as a fraction of the way.
+    """
+    way = target - branches.speed
+    size = np.full(len(way), first_step)
+    done = np.where(way == 0.0, 1.0, 0.0)
+    state = replace(branches, confidence=np.ones(len(way)))
+    while True:
+        active = np.flatnonzero(state.alive & (done < 1.0))
+        if len(active) == 0:
+            return state
+        length = np.minimum(size[active], 1.0 - done[active])
+        now = state.take(active)
+        last = done[active] + length >= 1.0 - 1e-12
+        speed = np.where(last, target, now.speed + length * way[active])
+        new, good, easy = _step(problem, now, speed)
+        state = state.put(active[good], new.take(np.flatnonzero(good)))
+        done[active[good]] = np.where(last, 1.0, done[active] + length)[good]
+        size[active] = np.where(good, length * np.where(easy, 2.0, 1.0), length / 4.0)
+        lost = active[size[active] < SMALLEST_STEP]
+        state = _given_up(state, lost)
+
+
+def _step(problem: AeroelasticProblem, now: Branches, speed: Real) -> tuple[Branches, Mask, Mask]:
+    """Predict and correct; say which steps are good and which may be longer next time."""
+    b = problem.half_chord
+    dU = speed - now.speed
+    predicted = now.eigenvalue + now.slope * dU + now.bend * dU**2 / 2.0
+    roots = polish_roots(problem, predicted * b / speed, speed, now.right, now.left, 6)
+    new = branches_at(problem, roots)
+    mac = np.abs(np.einsum("mi,mi->m", now.right.conj(), new.right)) ** 2
+    moved = np.abs(new.eigenvalue - predicted) / np.abs(new.eigenvalue)
+    upper = (new.eigenvalue.imag > 0.0) & (predicted.imag > 0.0)
+    good = roots.converged & upper & (mac > LEAST_MAC) & (moved < LARGEST_CORRECTION)
+    easy = (mac > 0.95) & (moved < LARGEST_CORRECTION / 4.0)
+    bend = (new.slope - now.slope) / np.where(dU == 0.0, 1.0, dU)
+    confidence = np.minimum(now.confidence, mac)
+    return replace(new, bend=bend, confidence=confidence), good, easy
+
+
+def _given_up(state: Branches, lost: Indices) -> Branches:
+    if len(lost) == 0:
+        return state
+    status = state.status.copy()
+    value = state.eigenvalue[lost]
+    real = np.abs(value.imag) < NEAR_REAL * np.abs(value)
+    status[lost] = np.where(real, Status.LEFT_DOMAIN, Status.NOT_CONVERGED)
+    return replace(state, status=status)
+
+
+@dataclass(frozen=True)
+class Loci:
+    """Eigenvalues against airspeed in branches; nan where a branch has none.
+
+    Attributes
+    ----------
+    speed : array, shape (u,)
+    eigenvalue : array of complex, shape (u, r)
+        lambda in rad/s.
+    residual, confidence : array, shape (u, r)
+    status : array of int, shape (u, r)
+    mode : array of int, shape (r,)
+        Column of T that the branch starts from at rest.
+    """
+
+    speed: Real
+    eigenvalue: Complex
+    residual: Real
+    confidence: Real
+    status: Indices
+    mode: Indices
+
+
+def track(problem: AeroelasticProblem, speeds: Real) -> Loci:
+    """Follow every oscillating root from still air through ascending airspeeds.
+
+    Parameters
+    ----------
+    problem : AeroelasticProblem
+    speeds : array, shape (u,)
+        In m/s, ascending, not negative.
+    """
+    start = still_air_roots(problem)
+    shape = (len(speeds), len(start.eigenvalue))
+    values, residual = np.full(shape, np.nan + 0j), np.full(shape, np.nan)
+    confidence, status = np.ones(shape), np.zeros(shape, int)
+    branches = _launched(problem, start, float(speeds[-1]))
+    for row, speed in enumerate(speeds):
+        if speed == 0.0:
+            values[row], residual[row] = start.eigenvalue, 0.0
+            continue
+        branches = _advanced_apart(problem, branches, float(speed))
+        alive = branches.alive
+        values[row, alive] = branches.eigenvalue[alive]
+        residual[row, alive] = branches.residual[alive]
+        confidence[row] = np.where(alive, branches.confidence, 0.0)
+        status[row] = branches.status
+    return Loci(np.asarray(speeds, float), values, residual, confidence, status, start.mode)
+
+
+def _launched(problem: AeroelasticProblem, start: StillAirRoots, fastest: float) -> Branches:
+    """Return the branches at a first airspeed so small that the still-air roots still hold."""
+    speed = np.full(len(start.eigenvalue), 1e-4 * fastest)
+    p = start.eigenvalue * problem.half_chord / speed
+    right = start.vectors
+    return branches_at(problem, polish_roots(problem, p, speed, right, right.conj()))
+
+
+def _advanced_apart(problem: AeroelasticProblem, branches: Branches, speed: float) -> Branches:
+    """Advance; where branches meet on one root, try again with ever smaller steps."""
+    result = advance(problem, branches, speed)
+    for first_step in (0.1, 0.01):
+        together = _collapsed(result)
+        if len(together) == 0:
+            return result
+        again = advance(problem, branches.take(together), speed, first_step)
+        result = result.put(together, again)
+    together = _collapsed(result)
+    status = result.status.copy()
+    status[together] = Status.COLLAPSED
+    return replace(result, status=status)
+
+
+def _collapsed(branches: Branches) -> Indices:
+    value = np.where(branches.alive, branches.eigenvalue, np.nan)
+    with np.errstate(invalid="ignore"):
+        near = np.abs(value[:, None] - value) < SAME_ROOT * np.abs(value)
+    np.fill_diagonal(near, False)
+    return np.flatnonzero(near.any(axis=1))

@@ -1,0 +1,1 @@
+"""Structural dynamics: component modes of the segments, hinges, and the joined wing."""

@@ -1,0 +1,146 @@
+"""Component modes of a uniform beam segment (Euler-Bernoulli bending, St. Venant torsion)."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from foldwing.maths.arrays import Real
+from foldwing.maths.quadrature import gauss_rule
+from foldwing.model import Analysis, Segment
+from foldwing.structure.component import SectionMotion
+from foldwing.structure.spanwise import SpanwiseFunctions, bending_functions, torsion_functions
+
+IN_PLANE = 3
+"""In-plane rigid motions of a free segment: x and y translation, yaw about its origin."""
+
+
+@dataclass(frozen=True)
+class BeamModes:
+    """Plunge functions, twist functions and in-plane rigid motions of one segment.
+
+    Parameters
+    ----------
+    segment : Segment
+    plunge, twist : SpanwiseFunctions
+    clamped : bool
+        A clamped segment has no in-plane motion.
+    """
+
+    segment: Segment
+    plunge: SpanwiseFunctions
+    twist: SpanwiseFunctions
+    clamped: bool
+
+    @property
+    def count(self) -> int:
+        """Number n of coordinates."""
+        return self._out_of_plane + (0 if self.clamped else IN_PLANE)
+
+    @property
+    def _out_of_plane(self) -> int:
+        return self.plunge.count + self.twist.count
+
+    @property
+    def _blocks(self) -> tuple[slice, slice, slice]:
+        nb, n = self.plunge.count, self._out_of_plane
+        return slice(0, nb), slice(nb, n), slice(n, self.count)
+
+    @cached_property
+    def mass(self) -> Real:
+        """Mass matrix, shape (n, n), in kg and kg m^2."""
+        segment = self.segment
+        m, i, x_cg = segment.mass_per_span, segment.inertia_per_span, segment.mass_offset
+        y, weights = gauss_rule(segment.span, self._quadrature_points)
+        h, phi = self.plunge.evaluate(y, 0), self.twist.evaluate(y, 0)
+        M = np.zeros((self.count, self.count))
+        bending, torsion, in_plane = self._blocks
+        M[bending, bending] = m * _gram(h, h, weights)
+        M[torsion, torsion] = i * _gram(phi, phi, weights)
+        M[bending, torsion] = -m * x_cg * _gram(h, phi, weights)
+        M[torsion, bending] = M[bending, torsion].T
+        if not self.clamped:
+            M[in_plane, in_plane] = self._in_plane_mass()
+        return M
+
+    def _in_plane_mass(self) -> Real:
+        segment = self.segment
+        m, i, L = segment.mass_per_span, segment.inertia_per_span, segment.span
+        by_x, by_y = m * segment.mass_offset * L, m * L**2 / 2.0
+        polar = m * L**3 / 3.0 + i * L
+        return np.array([[m * L, 0.0, -by_y], [0.0, m * L, by_x], [-by_y, by_x, polar]])
+
+    @cached_property
+    def stiffness(self) -> Real:
+        """Stiffness matrix, shape (n, n), in N/m and N m."""
+        segment = self.segment
+        y, weights = gauss_rule(segment.span, self._quadrature_points)
+        curvature, twist_rate = self.plunge.evaluate(y, 2), self.twist.evaluate(y, 1)
+        K = np.zeros((self.count, self.count))
+        bending, torsion, _ = self._blocks
+        K[bending, bending] = segment.bending_stiffness * _gram(curvature, curvature, weights)
+        K[torsion, torsion] = segment.torsion_stiffness * _gram(twist_rate, twist_rate, weights)
+        return K
+
+    @cached_property
+    def torsion_mass(self) -> Real:
+        """Mass of twist, and of in-plane x motion and yaw, which a folded wing's twist drives."""
+        _, torsion, in_plane = self._blocks
+        M = np.zeros_like(self.mass)
+        M[torsion, torsion] = self.mass[torsion, torsion]
+        if not self.clamped:
+            x_and_yaw = np.ix_(
+                [in_plane.start, in_plane.stop - 1], [in_plane.start, in_plane.stop - 1]
+            )
+            M[x_and_yaw] = self.mass[x_and_yaw]
+        return M
+
+    @property
+    def _quadrature_points(self) -> int:
+        return 2 * max(self.plunge.count, self.twist.count) + 24
+
+    def displacement(self, x: Real, y: Real) -> Real:
+        """Return the local displacement per coordinate, shape (m, 3, n): w = h - x phi."""
+        x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
+        bending, torsion, in_plane = self._blocks
+        u = np.zeros((len(y), 3, self.count))
+        u[:, 2, bending] = self.plunge.evaluate(y, 0)
+        u[:, 2, torsion] = -x[:, None] * self.twist.evaluate(y, 0)
+        if not self.clamped:
+            u[:, 0, in_plane] = np.stack([np.ones_like(y), np.zeros_like(y), -y], axis=1)
+            u[:, 1, in_plane] = np.stack([np.zeros_like(y), np.ones_like(y), x], axis=1)
+        return u
+
+    def slopes(self, x: Real, y: Real) -> Real:
+        """Return dw/dx and dw/dy per coordinate, shape (m, 2, n)."""
+        x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
+        bending, torsion, _ = self._blocks
+        slopes = np.zeros((len(y), 2, self.count))
+        slopes[:, 0, torsion] = -self.twist.evaluate(y, 0)
+        slopes[:, 1, bending] = self.plunge.evaluate(y, 1)
+        slopes[:, 1, torsion] = -x[:, None] * self.twist.evaluate(y, 1)
+        return slopes
+
+    def section_motion(self, y: Real) -> SectionMotion:
+        """Return plunge (m, up) and twist (rad, nose up) of the sections at ``y`` (m,)."""
+        bending, torsion, _ = self._blocks
+        y = np.asarray(y, float)
+        plunge, twist = np.zeros((2, len(y), self.count))
+        plunge[:, bending] = self.plunge.evaluate(y, 0)
+        twist[:, torsion] = self.twist.evaluate(y, 0)
+        return SectionMotion(plunge, twist)
+
+
+def _gram(f: Real, g: Real, weights: Real) -> Real:
+    return (f * weights[:, None]).T @ g
+
+
+def beam_modes(segment: Segment, analysis: Analysis, clamped: bool) -> BeamModes:
+    """Return the component modes of a beam segment in the basis that the analysis asks for."""
+    L, basis = segment.span, analysis.basis
+    return BeamModes(
+        segment,
+        bending_functions(L, analysis.bending_modes, clamped, basis),
+        torsion_functions(L, analysis.torsion_modes, clamped, basis),
+        clamped,
+    )

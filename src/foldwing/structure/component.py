@@ -1,0 +1,46 @@
+"""The port that every kind of segment model obeys: its component modes."""
+
+from typing import NamedTuple, Protocol
+
+from foldwing.maths.arrays import Real
+
+
+class SectionMotion(NamedTuple):
+    """Plunge and twist of chordwise sections, each of shape (m, n)."""
+
+    plunge: Real
+    twist: Real
+
+
+class ComponentModes(Protocol):
+    """Modes of one segment in its local axes; nothing downstream asks how they were computed.
+
+    The n coordinates are the out-of-plane modes followed by the in-plane rigid motions (x and y
+    translation, yaw; none for the clamped segment). Points are given by x (m aft of the elastic
+    axis) and y (m outboard of the inboard edge), both of shape (m,).
+    """
+
+    @property
+    def count(self) -> int:
+        """Number n of coordinates."""
+
+    @property
+    def mass(self) -> Real:
+        """Mass matrix, shape (n, n)."""
+
+    @property
+    def stiffness(self) -> Real:
+        """Stiffness matrix, shape (n, n)."""
+
+    @property
+    def torsion_mass(self) -> Real:
+        """Part of the mass matrix that belongs to twisting motion, shape (n, n)."""
+
+    def displacement(self, x: Real, y: Real) -> Real:
+        """Return the local displacement per coordinate, shape (m, 3, n)."""
+
+    def slopes(self, x: Real, y: Real) -> Real:
+        """Return dw/dx and dw/dy per coordinate, shape (m, 2, n)."""
+
+    def section_motion(self, y: Real) -> SectionMotion:
+        """Return plunge (m, up) and twist (rad, nose up) of the sections at ``y``."""

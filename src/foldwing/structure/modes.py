@@ -1,0 +1,196 @@
+"""Natural modes of the folded wing."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.linalg
+
+from foldwing.maths.arrays import Indices, Real
+from foldwing.maths.null_space import null_space
+from foldwing.maths.rotations import rotation_about_x
+from foldwing.structure.assembly import Assembly
+from foldwing.structure.component import SectionMotion
+
+RIGID_TOLERANCE = 1e-10
+"""Eigenvalues below this fraction of the largest are checked for being rigid motions."""
+
+
+@dataclass(frozen=True)
+class StructuralModes:
+    """Natural modes with unit modal mass.
+
+    Attributes
+    ----------
+    assembly : Assembly
+    fold_angles : tuple of float
+        psi_2 .. psi_N in radians.
+    omega : array, shape (n,)
+        Angular natural frequencies in rad/s, ascending; exactly zero for rigid motions.
+    coordinates : array, shape (size, n)
+        Modes in the coordinates of all segments.
+    damping : float
+        Structural damping ratio of every mode.
+    """
+
+    assembly: Assembly
+    fold_angles: tuple[float, ...]
+    omega: Real
+    coordinates: Real
+    damping: float = 0.0
+
+    @property
+    def count(self) -> int:
+        """Number n of modes."""
+        return len(self.omega)
+
+    @property
+    def frequencies(self) -> Real:
+        """Natural frequencies in Hz, shape (n,)."""
+        return self.omega / (2.0 * np.pi)
+
+    @cached_property
+    def by_segment(self) -> tuple[Real, ...]:
+        """Modes in the coordinates of each segment, shapes (n_i, n)."""
+        return tuple(self.assembly.by_segment(self.coordinates))
+
+    @cached_property
+    def rotations(self) -> tuple[Real, ...]:
+        """Rotation A_i from the local axes of each segment to global axes."""
+        angles = np.cumsum([0.0, *self.fold_angles])
+        return tuple(rotation_about_x(float(angle)) for angle in angles)
+
+    @cached_property
+    def origins(self) -> tuple[Real, ...]:
+        """Global position of the origin of each segment, shape (3,), in metres."""
+        points = [np.zeros(3)]
+        for segment, A in zip(self.assembly.wing.segments, self.rotations, strict=True):
+            points.append(points[-1] + A @ np.array([0.0, segment.span, 0.0]))
+        return tuple(points[:-1])
+
+    def position(self, segment: int, x: Real, y: Real) -> Real:
+        """Return the global position at rest of points of one segment (from 0), shape (m, 3)."""
+        local = np.stack([x, y, np.zeros_like(x)], axis=-1)
+        return self.origins[segment] + local @ self.rotations[segment].T
+
+    def displacement(self, segment: int, x: Real, y: Real) -> Real:
+        """Return the global displacement of points per unit modal coordinate, shape (m, 3, n)."""
+        local = self.assembly.components[segment].displacement(x, y) @ self.by_segment[segment]
+        return np.asarray(np.einsum("ab,mbn->man", self.rotations[segment], local))
+
+    def section_motion(self, segment: int, y: Real) -> SectionMotion:
+        """Return local plunge and twist of sections per unit modal coordinate, each (m, n)."""
+        plunge, twist = self.assembly.components[segment].section_motion(y)
+        q = self.by_segment[segment]
+        return SectionMotion(plunge @ q, twist @ q)
+
+    @cached_property
+    def bending_share(self) -> Real:
+        """Share of the kinetic energy in bending, 0 to 1, shape (n,)."""
+        q = self.coordinates
+        torsion = np.einsum("im,ij,jm->m", q, self.assembly.torsion_mass, q)
+        total = np.einsum("im,ij,jm->m", q, self.assembly.mass, q)
+        return np.asarray(np.clip(1.0 - torsion / total, 0.0, 1.0))
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names B1, B2, T1 ... by the larger share of kinetic energy; R1 ... for rigid motions."""
+        counts = {"B": 0, "T": 0, "R": 0}
+        names = []
+        for omega, share in zip(self.omega, self.bending_share, strict=True):
+            letter = "R" if omega == 0.0 else "B" if share >= 0.5 else "T"
+            counts[letter] += 1
+            names.append(f"{letter}{counts[letter]}")
+        return tuple(names)
+
+    @cached_property
+    def rayleigh_mismatch(self) -> float:
+        """Largest relative difference of omega^2 and v^T K v / v^T M v over the elastic modes.
+
+        Grows when a hinge stiffness is so large that round-off spoils the result.
+        """
+        q, elastic = self.coordinates, self.omega > 0.0
+        K = np.einsum("im,ij,jm->m", q, self.assembly.stiffness, q)
+        M = np.einsum("im,ij,jm->m", q, self.assembly.mass, q)
+        ratio = np.sqrt(np.abs(K / M)[elastic]) / self.omega[elastic]
+        return float(np.max(np.abs(ratio - 1.0), initial=0.0))
+
+    def only(self, keep: Indices) -> "StructuralModes":
+        """Return these modes with only the columns ``keep``, in that order."""
+        return StructuralModes(
+            self.assembly,
+            self.fold_angles,
+            self.omega[keep],
+            self.coordinates[:, keep],
+            self.damping,
+        )
+
+
+def modal_assurance(first: StructuralModes, second: StructuralModes) -> Real:
+    """Return the mass-weighted MAC of two sets of modes of one assembly, shape (n1, n2).
+
+    The coordinates are local to the segments, so the fold angles of the two may differ.
+    """
+    overlap = first.coordinates.T @ first.assembly.mass @ second.coordinates
+    return np.asarray(overlap**2)
+
+
+def natural_modes(
+    assembly: Assembly, fold_angles: tuple[float, ...] | None = None, count: int | None = None
+) -> StructuralModes:
+    """Solve the joined wing in the null space of its constraints.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    fold_angles : tuple of float, optional
+        psi_2 .. psi_N in radians; those of the wing by default.
+    count : int, optional
+        Number of modes; the analysis' ``system_modes`` by default, never more than there are.
+
+    Notes
+    -----
+    In coordinates y = R q with R^T R = M the problem is a standard symmetric one.
+    """
+    wing = assembly.wing
+    folds = wing.fold_angles if fold_angles is None else tuple(fold_angles)
+    wanted = wing.analysis.system_modes if count is None else count
+    R = assembly.mass_factor
+    C = scipy.linalg.solve_triangular(R, assembly.constraints(folds).T, trans="T").T
+    Z = np.asarray(scipy.linalg.solve_triangular(R, null_space(C).basis))
+    K = Z.T @ assembly.stiffness @ Z
+    wanted = min(wanted, len(K))
+    values, vectors = scipy.linalg.eigh(
+        K, subset_by_index=(0, wanted - 1), check_finite=False, driver="evr"
+    )
+    largest = float(np.max(np.diagonal(K)))
+    if values[0] < RIGID_TOLERANCE * largest:
+        values, vectors = _with_exact_rigid_modes(K, assembly.stiffness, Z, wanted)
+    omega = np.sqrt(np.maximum(values, 0.0))
+    return StructuralModes(assembly, folds, omega, _signed(Z @ vectors), wing.analysis.damping)
+
+
+def _with_exact_rigid_modes(K: Real, stiffness: Real, Z: Real, wanted: int) -> tuple[Real, Real]:
+    """Split the null space of K off exactly, so that rigid motions have no frequency at all.
+
+    Rows of K are scaled to unit norm first: the null space of rows does not change with their
+    scale, and round-off of the stiffest row does not leak into it.
+    """
+    strain = stiffness @ Z
+    norms = np.linalg.norm(strain, axis=1)
+    scale = np.linalg.norm(stiffness, axis=1).max()
+    significant = norms > 1e-14 * scale
+    rigid = null_space(strain[significant]).basis
+    elastic = null_space(rigid.T).basis if rigid.shape[1] else np.eye(len(K))
+    count = max(wanted - rigid.shape[1], 0)
+    values, vectors = np.linalg.eigh(elastic.T @ K @ elastic)
+    omega2 = np.concatenate([np.zeros(rigid.shape[1]), values[:count]])
+    shapes = np.hstack([rigid, elastic @ vectors[:, :count]])
+    return omega2[:wanted], shapes[:, :wanted]
+
+
+def _signed(modes: Real) -> Real:
+    """Fix the arbitrary sign: the largest coordinate of each mode is positive."""
+    largest = np.argmax(np.abs(modes), axis=0)
+    signs = np.sign(modes[largest, np.arange(modes.shape[1])])
+    return np.asarray(modes * np.where(signs == 0.0, 1.0, signs))

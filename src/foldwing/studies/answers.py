@@ -1,0 +1,84 @@
+"""Results as plain numbers and lists, for JSON: no nan, None instead."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from foldwing.results.flutter_table import FlutterRow
+from foldwing.stability.status import Status
+from foldwing.structure.modes import StructuralModes
+from foldwing.studies.boundary import Outcome
+from foldwing.studies.case import Case
+
+Answer = dict[str, Any]
+
+
+def modes_answer(modes: StructuralModes, names: Sequence[str]) -> Answer:
+    """Return natural frequencies in Hz and mode names of one case."""
+    return {
+        "fold": [_rounded(math.degrees(angle)) for angle in modes.fold_angles],
+        "natural_frequencies_hz": [_number(value) for value in modes.frequencies],
+        "mode_names": list(names),
+    }
+
+
+def flutter_answer(case: Case) -> Answer:
+    """Return the flutter points of one case, in m/s, Hz and s/m."""
+    rows = case.rows(0)
+    critical = case.analysis.critical
+    index = case.analysis.points.index(critical) if critical is not None else None
+    return {
+        "fold": list(case.folds),
+        "flutter_points": [_point(row) for row in rows],
+        "critical": None if index is None else _point(rows[index]),
+        "certified": case.analysis.certified,
+        "valid_from": case.analysis.speed_range[0],
+        "uncertified_modes": [],
+        "status": case.status.meaning,
+    }
+
+
+def boundary_answer(outcomes: Sequence[Outcome], wanted: int) -> Answer:
+    """Return one answer per case; a failed case has no points and says why."""
+    answer: Answer = {"cases": [_case(outcome) for outcome in outcomes]}
+    if len(outcomes) < wanted:
+        answer["interrupted"] = f"{len(outcomes)} of {wanted} cases finished"
+    return answer
+
+
+def _case(outcome: Outcome) -> Answer:
+    if outcome.case is not None:
+        return flutter_answer(outcome.case)
+    return {
+        "fold": list(outcome.folds),
+        "flutter_points": [],
+        "critical": None,
+        "certified": False,
+        "valid_from": None,
+        "uncertified_modes": [],
+        "status": Status.FAILED.meaning,
+        "message": outcome.message,
+    }
+
+
+def _point(row: FlutterRow) -> Answer:
+    return {
+        "kind": row.kind,
+        "event": row.event,
+        "class": row.classification,
+        "speed": row.speed,
+        "frequency": row.frequency,
+        "strength": _number(row.strength),
+        "mode": row.mode_name,
+        "mode_confidence": row.mode_confidence,
+    }
+
+
+def _number(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
+
+
+def _rounded(angle: float) -> float:
+    return round(angle, 9) + 0.0

@@ -1,0 +1,203 @@
+"""All flutter points over a grid of fold angles."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from foldwing.aeroelastic.wing import AeroelasticWing
+from foldwing.errors import FoldwingError
+from foldwing.results.flutter_table import table_variables
+from foldwing.results.provenance import NO_SOURCE, Source, provenance
+from foldwing.results.schema import build_dataset
+from foldwing.stability.status import Status
+from foldwing.studies.case import Case, solve_case
+from foldwing.studies.flutter import METHODS
+from foldwing.studies.grid import swept_hinge
+from foldwing.studies.measured import Measured
+from foldwing.studies.modes import fold_coordinates
+from foldwing.studies.speeds import speed_range
+
+if TYPE_CHECKING:
+    import xarray
+
+Variables = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A case of a sweep: solved, or failed with the reason.
+
+    Attributes
+    ----------
+    folds : tuple of float
+        In degrees.
+    case : Case or None
+    message : str
+        Why the case failed; empty when it did not.
+    """
+
+    folds: tuple[float, ...]
+    case: Case | None
+    message: str = ""
+
+    @property
+    def status(self) -> Status:
+        """How the case ended."""
+        return Status.FAILED if self.case is None else self.case.status
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """A sweep, as far as it came.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Of the finished cases.
+    outcomes : tuple of Outcome
+    wanted : int
+        Number of cases asked for; more than there are outcomes when the run was interrupted.
+    """
+
+    dataset: "xarray.Dataset"
+    outcomes: tuple[Outcome, ...]
+    wanted: int
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the run was stopped before its end."""
+        return len(self.outcomes) < self.wanted
+
+
+def boundary_study(
+    model: AeroelasticWing,
+    cases: Sequence[tuple[float, ...]],
+    *,
+    highest: float | None = None,
+    jobs: int = 1,
+    progress: Callable[[int], None] = lambda finished: None,
+    source: Source = NO_SOURCE,
+    measured: Measured | None = None,
+) -> Boundary:
+    """Find all flutter points of every case.
+
+    A case that fails is named and the others stand; an interruption keeps what is finished.
+
+    Parameters
+    ----------
+    model : AeroelasticWing
+    cases : sequence of tuple of float
+        psi_2 .. psi_N in degrees of each case.
+    highest : float, optional
+        Highest airspeed of the search in m/s; by default three times the divergence speed of the
+        flat wing.
+    jobs : int
+        Processes to run in parallel.
+    progress : callable
+        Called with the number of finished cases after each.
+    source : Source
+        What was asked for, kept with the result.
+    measured : Measured, optional
+        Measured points to lay over the picture.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        When the run is interrupted before its first case is finished.
+    """
+    hinge = swept_hinge(cases)
+    overlay = ({}, {}) if measured is None else measured.variables(hinge)
+    speeds = speed_range(model, highest)
+    outcomes: list[Outcome] = []
+    try:
+        for outcome in _outcomes(model, cases, speeds, jobs):
+            outcomes.append(outcome)
+            progress(len(outcomes))
+    except KeyboardInterrupt:
+        if not outcomes:
+            raise
+    attrs: dict[str, Any] = provenance(
+        model.wing.title,
+        "boundary",
+        source.model_text,
+        METHODS[model.aerodynamics],
+        source.options,
+    )
+    attrs["speed_limit"] = speeds[1]
+    attrs |= {} if hinge is None else {"swept": f"fold_{hinge}"}
+    if len(outcomes) < len(cases):
+        attrs["interrupted"] = f"{len(outcomes)} of {len(cases)} cases finished"
+    dataset = _dataset(outcomes, overlay, attrs)
+    return Boundary(dataset, tuple(outcomes), len(cases))
+
+
+def _outcomes(
+    model: AeroelasticWing,
+    cases: Sequence[tuple[float, ...]],
+    speeds: tuple[float, float],
+    jobs: int,
+) -> Iterator[Outcome]:
+    if jobs == 1:
+        for folds in cases:
+            yield attempt(model, folds, speeds)
+        return
+    from joblib import Parallel, delayed
+
+    run = Parallel(n_jobs=jobs, return_as="generator")
+    yield from run(delayed(attempt)(model, folds, speeds) for folds in cases)
+
+
+def attempt(
+    model: AeroelasticWing, folds: tuple[float, ...], speeds: tuple[float, float]
+) -> Outcome:
+    """Solve one case of a sweep; a numerical failure becomes part of the result."""
+    try:
+        return Outcome(folds, solve_case(model, folds, speeds))
+    except (ArithmeticError, np.linalg.LinAlgError, ValueError, FoldwingError) as problem:
+        return Outcome(folds, None, f"{type(problem).__name__}: {problem}")
+
+
+def _dataset(
+    outcomes: Sequence[Outcome], overlay: tuple[Variables, Variables], attrs: Mapping[str, Any]
+) -> "xarray.Dataset":
+    rows = [
+        row
+        for index, outcome in enumerate(outcomes)
+        if outcome.case is not None
+        for row in outcome.case.rows(index)
+    ]
+    variables = table_variables(rows) | _frequencies(outcomes) | _verdicts(outcomes) | overlay[0]
+    coords = fold_coordinates([outcome.folds for outcome in outcomes]) | overlay[1]
+    coords["flutter_point"] = (("flutter_point",), np.arange(len(rows)))
+    count = len(variables["natural_frequency"][1][0])
+    coords["mode"] = (("mode",), np.arange(1, count + 1))
+    return build_dataset(variables, coords, attrs)
+
+
+def _frequencies(outcomes: Sequence[Outcome]) -> Variables:
+    """Return natural frequencies in ascending order and names, nan and empty where failed."""
+    solved = [outcome.case.modes.count for outcome in outcomes if outcome.case is not None]
+    shape = (len(outcomes), max(solved, default=0))
+    frequency = np.full(shape, np.nan)
+    names = np.full(shape, "", dtype="<U4")
+    for row, outcome in enumerate(outcomes):
+        if outcome.case is not None:
+            count = outcome.case.modes.count
+            frequency[row, :count] = outcome.case.modes.frequencies
+            names[row, :count] = outcome.case.modes.names
+    dims = ("fold", "mode")
+    return {"natural_frequency": (dims, frequency), "mode_name": (dims, names)}
+
+
+def _verdicts(outcomes: Sequence[Outcome]) -> Variables:
+    fold = ("fold",)
+    certified = [o.case is not None and o.case.analysis.certified for o in outcomes]
+    lowest = [np.nan if o.case is None else o.case.analysis.speed_range[0] for o in outcomes]
+    return {
+        "certified": (fold, np.array(certified)),
+        "case_status": (fold, np.array([int(o.status) for o in outcomes])),
+        "valid_from": (fold, np.array(lowest)),
+        "message": (fold, np.array([o.message for o in outcomes], dtype=np.str_)),
+    }

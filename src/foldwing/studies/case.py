@@ -1,0 +1,86 @@
+"""One case: a wing at given fold angles, its modes and all its flutter points."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldwing.aeroelastic.system import AeroelasticSystem
+from foldwing.aeroelastic.wing import AeroelasticWing
+from foldwing.maths.arrays import Complex
+from foldwing.results.flutter_table import FlutterRow
+from foldwing.stability.flutter import FlutterAnalysis, find_flutter
+from foldwing.stability.status import FlutterPoint, Status
+from foldwing.structure.modes import StructuralModes
+from foldwing.studies.grid import radians
+
+
+@dataclass(frozen=True)
+class Case:
+    """A solved case.
+
+    Attributes
+    ----------
+    folds : tuple of float
+        psi_2 .. psi_N in degrees.
+    modes : StructuralModes
+    system : AeroelasticSystem
+    analysis : FlutterAnalysis
+    """
+
+    folds: tuple[float, ...]
+    modes: StructuralModes
+    system: AeroelasticSystem
+    analysis: FlutterAnalysis
+
+    @property
+    def status(self) -> Status:
+        """OK, or uncertified when the count of unstable roots does not agree."""
+        return Status.OK if self.analysis.certified else Status.UNCERTIFIED
+
+    def rows(self, index: int) -> list[FlutterRow]:
+        """Return the table of flutter points of this case, whose number is ``index``."""
+        return [self._row(index, point) for point in self.analysis.points]
+
+    def _row(self, index: int, point: FlutterPoint) -> FlutterRow:
+        return FlutterRow(
+            case=index,
+            fold=self.folds,
+            kind=point.kind,
+            event=point.event,
+            classification=point.classification,
+            speed=point.speed,
+            frequency=point.frequency,
+            strength=point.strength,
+            branch=point.branch,
+            mode_name=self.modes.names[point.mode],
+            mode_confidence=point.mode_confidence,
+            threshold=self.analysis.threshold,
+            residual=point.residual,
+        )
+
+    def motions(self) -> Complex:
+        """Return the motion at each flutter point in modal coordinates, shape (points, n)."""
+        points = self.analysis.points
+        p = np.array([point.p or 1e-9 for point in points], complex)
+        speed = np.array([point.speed for point in points], float)
+        x = np.array([point.vector for point in points]).reshape(len(points), self.system.size)
+        return self.system.modal_vectors(p, speed, x)
+
+
+def solve_case(
+    model: AeroelasticWing, folds: tuple[float, ...], speed_range: tuple[float, float]
+) -> Case:
+    """Return all flutter points of a wing at one set of fold angles.
+
+    Parameters
+    ----------
+    model : AeroelasticWing
+    folds : tuple of float
+        psi_2 .. psi_N in degrees.
+    speed_range : (float, float)
+        Lowest and highest airspeed in m/s.
+    """
+    modes = model.modes(radians(folds))
+    system = model.system(modes)
+    threshold = model.wing.analysis.damping_threshold
+    return Case(folds, modes, system, find_flutter(system, speed_range, threshold))

@@ -1,0 +1,157 @@
+"""Eigenvalues against airspeed and all flutter points of one case."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from foldwing.aeroelastic.wing import AeroelasticWing
+from foldwing.maths.arrays import Real
+from foldwing.results.flutter_table import table_variables
+from foldwing.results.provenance import NO_SOURCE, Source, provenance
+from foldwing.results.schema import build_dataset
+from foldwing.stability.contours import determinant_map
+from foldwing.stability.loci import RootLoci, root_loci
+from foldwing.structure.following import FollowedModes
+from foldwing.studies.case import Case, solve_case
+from foldwing.studies.modes import fold_coordinates, mode_variables, shape_variables
+from foldwing.studies.shapes import SurfaceGrid, surface_grid
+from foldwing.studies.speeds import picture_speeds, speed_range
+
+if TYPE_CHECKING:
+    import xarray
+
+Variables = dict[str, Any]
+
+METHODS = {
+    "strip": "beam segments, Theodorsen strip theory, sweep of the reduced frequency",
+    "quasi-steady": "beam segments, quasi-steady strip theory, sweep of the reduced frequency",
+}
+"""One line per aerodynamic model on how the numbers are computed."""
+
+CONTOUR_POINTS = 141
+"""Points along each axis of the determinant contours."""
+
+
+def flutter_study(
+    model: AeroelasticWing,
+    folds: tuple[float, ...],
+    *,
+    speeds: Real | None = None,
+    highest: float | None = None,
+    source: Source = NO_SOURCE,
+) -> tuple["xarray.Dataset", Case]:
+    """Return the dataset of one case, and the case itself.
+
+    Parameters
+    ----------
+    model : AeroelasticWing
+    folds : tuple of float
+        psi_2 .. psi_N in degrees.
+    speeds : array, shape (u,), optional
+        Airspeeds of the loci in m/s; by default 61 from 0 to 1.5 times the critical speed.
+    highest : float, optional
+        Highest airspeed of the search for flutter points; by default the last of ``speeds``, else
+        three times the divergence speed of the flat wing.
+    source : Source
+        What was asked for, kept with the result.
+    """
+    if highest is None and speeds is not None:
+        highest = float(speeds[-1])
+    case = solve_case(model, folds, speed_range(model, highest))
+    chosen = picture_speeds(case.analysis) if speeds is None else speeds
+    loci = root_loci(case.system, chosen, case.analysis.sweep)
+    followed = [FollowedModes(case.modes, np.ones(case.modes.count))]
+    grid = surface_grid(model.wing)
+    variables = (
+        _padded(mode_variables(followed), shape_variables(followed, grid), len(loci.mode))
+        | _loci_variables(loci, case)
+        | table_variables(case.rows(0))
+        | _shape_variables(case, grid)
+        | case_variables([case])
+    )
+    coords = fold_coordinates([folds]) | grid.coordinates()
+    coords["speed"] = (("speed",), chosen)
+    coords["mode"] = (("mode",), np.arange(1, len(loci.mode) + 1))
+    coords["flutter_point"] = (("flutter_point",), np.arange(len(case.analysis.points)))
+    contours, contour_coords = _contours(case, chosen)
+    attrs: dict[str, Any] = provenance(
+        model.wing.title,
+        "flutter",
+        source.model_text,
+        METHODS[model.aerodynamics],
+        source.options,
+    )
+    attrs["speed_limit"] = case.analysis.speed_range[1]
+    return build_dataset(variables | contours, coords | contour_coords, attrs), case
+
+
+def _padded(modes: Variables, shapes: Variables, width: int) -> Variables:
+    """Widen variables on ``mode`` for branches of real roots, which have no natural mode."""
+    result = {}
+    for name, (dims, values) in (modes | shapes).items():
+        if "mode" in dims:
+            axis = dims.index("mode")
+            missing = [(0, 0)] * values.ndim
+            missing[axis] = (0, width - values.shape[axis])
+            empty = "" if values.dtype.kind == "U" else np.nan
+            values = np.pad(values, missing, constant_values=empty)
+        result[name] = (dims, values)
+    return result
+
+
+def _loci_variables(loci: RootLoci, case: Case) -> Variables:
+    dims = ("fold", "speed", "mode")
+    values = loci.eigenvalue
+    with np.errstate(divide="ignore", invalid="ignore"):
+        damping = np.where(values.imag == 0.0, np.nan, -values.real / np.abs(values.imag))
+    names = [case.modes.names[mode] for mode in loci.mode if mode >= 0]
+    names += [f"D{number}" for number in range(1, int((loci.mode < 0).sum()) + 1)]
+    frequency = np.where(np.isnan(values.real), np.nan, np.abs(values.imag) / (2.0 * np.pi))
+    return {
+        "eigenvalue": (dims, values[None]),
+        "frequency": (dims, frequency[None]),
+        "damping": (dims, damping[None]),
+        "growth": (dims, values.real[None]),
+        "residual": (dims, loci.residual[None]),
+        "status": (dims, loci.status[None]),
+        "confidence": (dims, loci.confidence[None]),
+        "loci_certified": (("fold", "speed"), loci.certified[None]),
+        "branch_name": (("mode",), np.array(names)),
+    }
+
+
+def _shape_variables(case: Case, grid: SurfaceGrid) -> Variables:
+    """Return the motion at each flutter point: largest displacement 1 m, its phase zero."""
+    shapes = np.einsum("pan,fn->fpa", grid.displacement(case.modes), case.motions())
+    flat = shapes.reshape(len(shapes), -1)
+    if len(flat):
+        largest = flat[np.arange(len(flat)), np.abs(flat).argmax(axis=1)]
+        shapes = shapes / largest[:, None, None]
+    return {"flutter_shape": (("flutter_point", "point", "axis"), shapes)}
+
+
+def case_variables(cases: list[Case]) -> Variables:
+    """Return what is known of each case as a whole."""
+    fold = ("fold",)
+    return {
+        "certified": (fold, np.array([case.analysis.certified for case in cases])),
+        "case_status": (fold, np.array([int(case.status) for case in cases])),
+        "valid_from": (fold, np.array([case.analysis.speed_range[0] for case in cases])),
+    }
+
+
+def _contours(case: Case, speeds: Real) -> tuple[Variables, Variables]:
+    """Return the determinant around the roots at the critical speed, or at the last speed."""
+    critical = case.analysis.critical
+    speed = float(speeds[-1]) if critical is None else critical.speed
+    highest = 1.15 * float(case.modes.omega[min(3, case.modes.count - 1)])
+    growth = np.linspace(-0.35 * highest, 0.12 * highest, CONTOUR_POINTS)
+    omega = np.linspace(highest / CONTOUR_POINTS, highest, CONTOUR_POINTS)
+    result = determinant_map(case.system, speed, growth, omega)
+    dims = ("contour_growth", "contour_frequency")
+    variables = {"determinant": (dims, result.determinant, {"speed": speed})}
+    coords = {
+        "contour_growth": (dims[:1], growth),
+        "contour_frequency": (dims[1:], omega / (2.0 * np.pi)),
+    }
+    return variables, coords

@@ -1,0 +1,150 @@
+"""Ranges, fold angles and airspeeds: what the user asks for as a grid of cases."""
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from foldwing.errors import InputError
+from foldwing.maths.arrays import Real
+from foldwing.model import Wing
+
+LEVEL = "level"
+"""Fold that keeps a segment parallel to segment 1."""
+
+MOST_VALUES = 100_000
+"""Values of a range or cases of a grid above which a typing error is more likely than a wish."""
+
+
+def parse_range(text: str, field: str) -> tuple[float, ...]:
+    """Return the values of ``"start:stop:step"``, stop included, or of a single number.
+
+    Raises
+    ------
+    InputError
+        When the text is empty, not a number, not finite, reversed, or has a step of zero.
+    """
+    parts = text.split(":")
+    remedy = "Give one number, or start:stop:step such as 0:150:2.5."
+    if len(parts) not in (1, 3):
+        raise InputError(field, text, "must be a number or start:stop:step", remedy)
+    try:
+        numbers = [float(part) for part in parts]
+    except ValueError:
+        raise InputError(field, text, "must be made of numbers", remedy) from None
+    if not all(math.isfinite(number) for number in numbers):
+        raise InputError(field, text, "must be finite", remedy)
+    return (numbers[0],) if len(numbers) == 1 else _values(*numbers, field=field, text=text)
+
+
+def _values(start: float, stop: float, step: float, *, field: str, text: str) -> tuple[float, ...]:
+    if step == 0.0:
+        raise InputError(field, text, "the step must not be zero", "Give a step such as 2.5.")
+    count = (stop - start) / step
+    if count < -1e-9:
+        remedy = f"Write {stop:g}:{start:g}:{abs(step):g}, or give the step the other sign."
+        raise InputError(field, text, "the step must lead from start to stop", remedy)
+    if count > MOST_VALUES:
+        remedy = "Give a larger step."
+        raise InputError(field, text, f"must have at most {MOST_VALUES} values", remedy)
+    values = [start + i * step for i in range(int(count + 1e-9) + 1)]
+    if abs(values[-1] - stop) > 1e-9 * abs(step):
+        values.append(stop)
+    return tuple(round(value, 12) for value in values)
+
+
+def parse_folds(text: str, wing: Wing) -> tuple[float, ...]:
+    """Return psi_2..psi_N in degrees from ``"30,-75"``.
+
+    Raises
+    ------
+    InputError
+        When the wing has no hinge, or the numbers are not as many as its hinges.
+    """
+    _require_hinges(wing, "--fold", text)
+    hinges = len(wing.hinges)
+    limit = f"must be {hinges} angles in degrees, one for each hinge"
+    remedy = "Write them from root to tip, separated by commas: --fold 30,-75."
+    try:
+        angles = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        raise InputError("--fold", text, limit, remedy) from None
+    if len(angles) != hinges or not all(math.isfinite(angle) for angle in angles):
+        raise InputError("--fold", text, limit, remedy)
+    return angles
+
+
+def _require_hinges(wing: Wing, field: str, value: object) -> None:
+    if not wing.hinges:
+        limit = "this wing has one segment and no hinge"
+        raise InputError(field, value, limit, "Leave the option out.")
+
+
+def fold_cases(
+    wing: Wing, fold: str | None = None, by_hinge: Mapping[int, str] | None = None
+) -> list[tuple[float, ...]]:
+    """Return the fold angles in degrees of every case of a full grid, the first hinge slowest.
+
+    Parameters
+    ----------
+    wing : Wing
+    fold : str, optional
+        ``"30,-75"``: angles of all hinges instead of the wing's own.
+    by_hinge : mapping of int to str, optional
+        For hinge I (from 2): a number, a range or ``level``.
+    """
+    base = [math.degrees(angle) for angle in wing.fold_angles]
+    angles = list(parse_folds(fold, wing)) if fold is not None else [round(a, 10) for a in base]
+    choices: list[tuple[float | str, ...]] = [(angle,) for angle in angles]
+    for hinge, text in (by_hinge or {}).items():
+        field = f"--fold{hinge}"
+        _require_hinges(wing, field, text)
+        if not 2 <= hinge <= wing.count:
+            limit = f"this wing has the hinges 2 to {wing.count}"
+            raise InputError(field, text, limit, "Hinge I joins segments I-1 and I.")
+        level = text.strip().lower() == LEVEL
+        choices[hinge - 2] = (LEVEL,) if level else parse_range(text, field)
+    total = math.prod(len(choice) for choice in choices)
+    if total > MOST_VALUES:
+        remedy = "Give larger steps, or sweep fewer hinges at once."
+        raise InputError("--fold", total, f"a grid may have {MOST_VALUES} cases", remedy)
+    return [_levelled(case) for case in itertools.product(*choices)]
+
+
+def _levelled(case: Sequence[float | str]) -> tuple[float, ...]:
+    angles: list[float] = []
+    for angle in case:
+        angles.append(-math.fsum(angles) if isinstance(angle, str) else angle)
+    return tuple(0.0 if angle == 0.0 else angle for angle in angles)
+
+
+def swept_hinge(cases: Sequence[tuple[float, ...]]) -> int | None:
+    """Return the first hinge (from 2) whose angle varies over the cases, None when none does."""
+    for hinge, angles in enumerate(zip(*cases, strict=True), start=2):
+        if len(set(angles)) > 1:
+            return hinge
+    return None
+
+
+def radians(folds: Sequence[float]) -> tuple[float, ...]:
+    """Return fold angles in radians."""
+    return tuple(math.radians(angle) for angle in folds)
+
+
+def parse_speeds(text: str) -> Real:
+    """Return airspeeds in m/s, ascending and not negative.
+
+    Raises
+    ------
+    InputError
+        When a speed is negative, the range descends, or it has no speed above zero.
+    """
+    speeds = parse_range(text, "--speeds")
+    if len(speeds) > 1 and speeds[1] < speeds[0]:
+        remedy = "Write the lower speed first, 0:60:1."
+        raise InputError("--speeds", text, "must ascend", remedy)
+    if speeds[0] < 0.0 or speeds[-1] <= 0.0:
+        remedy = "Start at 0 m/s or above and end above it, 0:60:1."
+        raise InputError("--speeds", text, "must not be negative or only 0", remedy)
+    return np.array(speeds)

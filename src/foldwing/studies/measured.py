@@ -1,0 +1,106 @@
+"""Measured points, to lay over a picture."""
+
+import csv
+import io
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foldwing.errors import InputError
+from foldwing.maths.arrays import Real
+from foldwing.model import example_text, measurement_names
+
+REMEDY = (
+    "Write a CSV file whose header has fold_2 (and fold_3 ...) in degrees and speed in m/s, "
+    "frequency in Hz, or both."
+)
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Columns of a table of measured points; nan where a value is missing.
+
+    Attributes
+    ----------
+    columns : dict of str to array, shape (m,)
+        ``fold_2`` ... in degrees, ``speed`` in m/s, ``frequency`` in Hz.
+    source : str
+        Name of the file.
+    """
+
+    columns: dict[str, Real]
+    source: str
+
+    def variables(self, hinge: int | None) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Return dataset variables and coordinates, against the angle of ``hinge`` (from 2).
+
+        Raises
+        ------
+        InputError
+            When the table has no column for that hinge.
+        """
+        name = f"fold_{hinge or 2}"
+        if name not in self.columns:
+            limit = f"must have a column {name}, the angle that is swept"
+            raise InputError("--measured", self.source, limit, REMEDY)
+        fold, count = self.columns[name], len(self.columns[name])
+        missing = np.full(count, np.nan)
+        dims = ("measured",)
+        variables = {
+            "measured_fold": (dims, fold),
+            "measured_speed": (dims, self.columns.get("speed", missing)),
+            "measured_frequency": (dims, self.columns.get("frequency", missing)),
+        }
+        return variables, {"measured": (dims, np.arange(count))}
+
+
+def read_measured(source: str) -> Measured:
+    """Read measured points from a CSV file, or from a table shipped with the package.
+
+    Raises
+    ------
+    InputError
+        When the file cannot be read or has not the right columns.
+    """
+    rows = list(csv.reader(io.StringIO("\n".join(_lines(_text(source))))))
+    if len(rows) < 2:
+        raise InputError("--measured", source, "must have a header and a row", REMEDY)
+    header = [name.strip() for name in rows[0]]
+    if not any(name in header for name in ("speed", "frequency")):
+        raise InputError("--measured", source, "must have a column speed or frequency", REMEDY)
+    columns: dict[str, list[float]] = {name: [] for name in header}
+    for number, row in enumerate(rows[1:], start=2):
+        if len(row) != len(header):
+            limit = f"row {number} must have {len(header)} values"
+            raise InputError("--measured", source, limit, REMEDY)
+        for name, text in zip(header, row, strict=True):
+            columns[name].append(_number(text, name, number, source))
+    return Measured({name: np.array(values) for name, values in columns.items()}, source)
+
+
+def _lines(text: str) -> list[str]:
+    return [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+
+
+def _text(source: str) -> str:
+    if source in measurement_names():
+        return example_text(source)
+    try:
+        return Path(source).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as problem:
+        known = ", ".join(measurement_names())
+        limit = f"must be a readable CSV file or one of: {known}"
+        raise InputError("--measured", source, limit, f"{problem}.") from None
+
+
+def _number(text: str, name: str, row: int, source: str) -> float:
+    if not text.strip():
+        return math.nan
+    try:
+        return float(text)
+    except ValueError:
+        limit = f"row {row}, column {name}: {text!r} is not a number"
+        raise InputError("--measured", source, limit, REMEDY) from None

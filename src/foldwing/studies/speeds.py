@@ -1,0 +1,65 @@
+"""Which airspeeds to look at when the user names none."""
+
+import math
+
+import numpy as np
+
+from foldwing.aeroelastic.wing import AeroelasticWing
+from foldwing.errors import InputError
+from foldwing.maths.arrays import Real
+from foldwing.stability.flutter import FlutterAnalysis
+from foldwing.stability.sweep import divergence_speeds
+
+LOWEST_FRACTION = 1.0 / 150.0
+"""Lowest airspeed of the search as a fraction of the highest."""
+
+TIMES_DIVERGENCE = 3.0
+"""The search ends at this multiple of the divergence speed of the flat wing."""
+
+SLOW_MODES = 0.02
+"""Without divergence it ends where the lowest torsion mode has this reduced frequency."""
+
+
+def speed_range(model: AeroelasticWing, highest: float | None = None) -> tuple[float, float]:
+    """Return the lowest and highest airspeed in m/s between which flutter is sought.
+
+    Parameters
+    ----------
+    model : AeroelasticWing
+    highest : float, optional
+        By default three times the lowest divergence speed of the flat wing, rounded up to two
+        digits, the same for all fold angles.
+
+    Raises
+    ------
+    InputError
+        When ``highest`` is not positive and finite.
+    """
+    if highest is not None and not (math.isfinite(highest) and highest > 0.0):
+        remedy = "Give the highest airspeed of the search in m/s, such as 60."
+        raise InputError("--max-speed", highest, "must be greater than 0 m/s", remedy)
+    top = _automatic(model) if highest is None else highest
+    return top * LOWEST_FRACTION, top
+
+
+def _automatic(model: AeroelasticWing) -> float:
+    modes = model.modes((0.0,) * len(model.wing.hinges))
+    divergence = divergence_speeds(model.system(modes))
+    if len(divergence):
+        return _rounded_up(TIMES_DIVERGENCE * float(divergence[0]))
+    torsion = [omega for omega, name in zip(modes.omega, modes.names, strict=True) if name == "T1"]
+    omega = torsion[0] if torsion else float(modes.omega[-1])
+    return _rounded_up(omega * model.wing.segments[0].half_chord / SLOW_MODES)
+
+
+def _rounded_up(value: float) -> float:
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return round(math.ceil(value / unit - 1e-9) * unit, 12)
+
+
+def picture_speeds(analysis: FlutterAnalysis) -> Real:
+    """Return 61 speeds from 0 to 1.5 times the lowest onset, divergence or merger."""
+    critical = analysis.critical
+    top = analysis.speed_range[1]
+    last = top if critical is None else min(1.5 * critical.speed, top)
+    return np.linspace(0.0, last, 61)
