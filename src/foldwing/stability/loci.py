@@ -5,11 +5,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldwing.maths.arrays import Complex, Indices, Mask, Real
+from foldwing.stability.newton import Roots, polish_roots, roots_at
+from foldwing.stability.path import EigenvaluePath
 from foldwing.stability.problem import AeroelasticProblem
-from foldwing.stability.real_axis import real_axis_path, real_roots
+from foldwing.stability.real_axis import births, real_axis_path, real_roots
 from foldwing.stability.status import Status
 from foldwing.stability.sweep import Sweep, count_unstable
-from foldwing.stability.tracking import track
+from foldwing.stability.tracking import Branches, Loci, branches_at, record, track
+
+BESIDE = 1e-3
+"""Relative change of p and U at which a pair just born is looked for."""
+
+SAME_EIGENVALUE = 1e-6
+"""Relative difference below which a root lies on a branch."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +33,8 @@ class RootLoci:
     residual, confidence : array, shape (u, r)
     status : array of int, shape (u, r)
     mode : array of int, shape (r,)
-        Column of T that the branch starts from at rest; -1 for real roots.
+        Column of T that the branch starts from at rest; -1 for real roots, and for oscillating
+        ones born of two real roots.
     certified : array of bool, shape (u,)
         Whether the unstable eigenvalues listed are as many as the argument principle counts.
     """
@@ -50,8 +59,9 @@ def root_loci(problem: AeroelasticProblem, speeds: Real, sweep: Sweep) -> RootLo
     sweep : Sweep
         Of the same problem; its path around the unstable region counts the roots.
     """
-    loci = track(problem, speeds)
-    real, residual = _real_columns(problem, speeds)
+    real_axis = real_axis_path(problem, float(speeds[-1]))
+    loci = _with_born_pairs(problem, track(problem, speeds), sweep, real_axis)
+    real, residual = _real_columns(problem, real_axis, speeds)
     absent = np.isnan(real.real)
     values = np.hstack([loci.eigenvalue, real])
     return RootLoci(
@@ -65,8 +75,55 @@ def root_loci(problem: AeroelasticProblem, speeds: Real, sweep: Sweep) -> RootLo
     )
 
 
-def _real_columns(problem: AeroelasticProblem, speeds: Real) -> tuple[Complex, Real]:
-    path = real_axis_path(problem, float(speeds[-1]))
+def _with_born_pairs(
+    problem: AeroelasticProblem, loci: Loci, sweep: Sweep, real_axis: EigenvaluePath
+) -> Loci:
+    """Add oscillating roots that no branch from rest passes through, followed both ways.
+
+    Such a pair was born of two real roots: it is known by where that happens while it is unstable,
+    or by a crossing of the stability boundary.
+    """
+    crossings = sweep.crossings
+    starts = [crossings.roots.take(np.array([i])) for i in np.flatnonzero(~crossings.divergence)]
+    top = float(loci.speed[-1])
+    double = births(problem, real_axis, (float(sweep.certificate.speeds[0]), top))
+    starts += [_just_born(problem, double, index) for index in range(len(double.p))]
+    for root in starts:
+        if root.converged[0] and root.p[0].imag > 0.0:
+            loci = _with_branch(problem, loci, branches_at(problem, root))
+    return loci
+
+
+def _just_born(problem: AeroelasticProblem, double: Roots, index: int) -> Roots:
+    """Return the complex pair at a slightly higher airspeed than the double root.
+
+    Near it U = U0 - c (p - p0)^2, so that p - p0 = i sqrt((U - U0) / c) above U0.
+    """
+    p, speed = double.p[index].real, double.speed[index]
+    beside = roots_at(problem, np.array([p * (1.0 + BESIDE) + 0j]), np.array([speed]))
+    slope = abs(1.0 / beside.p_by_speed[0].real)
+    higher = speed * (1.0 + BESIDE)
+    guess = p + 1j * np.sqrt(2.0 * BESIDE**2 * speed * p / slope)
+    return polish_roots(problem, np.array([guess]), np.array([higher]))
+
+
+def _with_branch(problem: AeroelasticProblem, loci: Loci, root: Branches) -> Loci:
+    """Add the branch through one root, unless a branch passes through it already."""
+    above = np.flatnonzero(loci.speed > root.speed[0])
+    below = np.flatnonzero((loci.speed < root.speed[0]) & (loci.speed > 0.0))[::-1]
+    if len(above) == 0 or len(below) == 0:
+        return loci
+    upward = record(problem, root, loci.speed[above])
+    same = np.abs(loci.eigenvalue[above[0]] / upward.eigenvalue[0, 0] - 1.0) < SAME_EIGENVALUE
+    if same.any():
+        return loci
+    downward = record(problem, root, loci.speed[below])
+    return loci.joined(upward, above, downward, below)
+
+
+def _real_columns(
+    problem: AeroelasticProblem, path: EigenvaluePath, speeds: Real
+) -> tuple[Complex, Real]:
     moving = np.flatnonzero(speeds > 0.0)
     found = real_roots(problem, path, speeds[moving])
     width = max((len(roots.p) for roots in found), default=0)

@@ -2,13 +2,14 @@
 
 On the positive real axis T is real, and its pencil gives the airspeeds U(p) at which a real p is a
 root. A minimum of U(p) is a double root: below it the two real roots are a complex pair, above it
-they are real. That is a *merger*, found without following any pair.
+they are real. That is a *merger*, found without following any pair. At a maximum two real roots
+become a complex pair.
 """
 
 import numpy as np
 from scipy.optimize import brentq
 
-from foldwing.maths.arrays import Complex, Real
+from foldwing.maths.arrays import Complex, Indices, Real
 from foldwing.stability.newton import Roots, polish_roots, roots_at
 from foldwing.stability.path import EigenvaluePath, follow_path, inverse_speeds
 from foldwing.stability.problem import AeroelasticProblem
@@ -16,6 +17,9 @@ from foldwing.stability.region import RIGHT_EDGE
 
 POINTS = 60
 """Points along the real axis."""
+
+SAME_ROOT = 1e-7
+"""Relative difference below which two real roots are one."""
 
 ZOOMS = 4
 """Most times that the path is refined around a minimum of U(p)."""
@@ -35,56 +39,88 @@ def _real_inverse(path: EigenvaluePath) -> Real:
 
 
 def real_roots(problem: AeroelasticProblem, path: EigenvaluePath, speeds: Real) -> list[Roots]:
-    """Return the real positive roots at each airspeed, the fastest growing first."""
-    s, t = _real_inverse(path), path.parameter
-    excess = speeds[:, None, None] ** path.power * s - 1.0
-    with np.errstate(invalid="ignore"):
-        changes = excess[:, :-1] * excess[:, 1:] < 0.0
-    case, row, column = np.nonzero(changes)
-    before, after = excess[case, row, column], excess[case, row + 1, column]
-    seed = np.exp(t[row] + before / (before - after) * (t[row + 1] - t[row])) + 0j
+    """Return the real positive roots at each airspeed, the fastest growing first.
+
+    Sought where a factor 1 - V s of the determinant changes sign along the axis, and where all of
+    them together do: two real eigenvalues may meet between two points and turn complex.
+    """
+    real = _real_inverse(path)[None]
+    V = speeds[:, None, None] ** path.power
+    factors = 1.0 - V * real
+    whole = np.prod(1.0 - V * path.inverse, axis=2).real[:, :, None]
+    case, seed = _sign_changes(np.concatenate([factors, whole], axis=2), path.parameter)
     roots = polish_roots(problem, seed, speeds[case])
     good = roots.converged & (np.abs(roots.p.imag) < 1e-9) & (roots.p.real > 0.0)
     result = []
     for index in range(len(speeds)):
         found = np.flatnonzero(good & (case == index))
-        result.append(roots.take(found[np.argsort(-roots.p.real[found])]))
+        found = found[np.argsort(-roots.p.real[found])]
+        p = roots.p.real[found]
+        new = np.concatenate([[True], np.abs(np.diff(p)) > SAME_ROOT * p[1:]])[: len(p)]
+        result.append(roots.take(found[new]))
     return result
+
+
+def _sign_changes(values: Real, t: Real) -> tuple[Indices, Complex]:
+    """Return the case and the interpolated p of every sign change along axis 1."""
+    before, after = values[:, :-1], values[:, 1:]
+    with np.errstate(invalid="ignore"):
+        case, row, column = np.nonzero(before * after < 0.0)
+    start, end = before[case, row, column], after[case, row, column]
+    return case, _point(t[row] + start / (start - end) * (t[row + 1] - t[row]))
 
 
 def mergers(
     problem: AeroelasticProblem, path: EigenvaluePath, speed_range: tuple[float, float]
 ) -> Roots:
     """Return the double roots at which an unstable complex pair becomes real, ascending in U."""
+    return _double_roots(problem, path, speed_range, 1.0)
+
+
+def births(
+    problem: AeroelasticProblem, path: EigenvaluePath, speed_range: tuple[float, float]
+) -> Roots:
+    """Return the double roots at which two real roots become a complex pair, ascending in U."""
+    return _double_roots(problem, path, speed_range, -1.0)
+
+
+def _double_roots(
+    problem: AeroelasticProblem,
+    path: EigenvaluePath,
+    speed_range: tuple[float, float],
+    sign: float,
+) -> Roots:
+    """Return the minima (sign 1) or maxima (sign -1) of U(p) in a range of airspeeds."""
     slow, fast = speed_range
-    found = [(p, U) for p, U in _minima(problem, path, 2.0 * fast, ZOOMS) if slow <= U <= fast]
+    extrema = _extrema(problem, path, 2.0 * fast, sign, ZOOMS)
+    found = [(p, U) for p, U in extrema if slow <= U <= fast]
     p = np.array([root[0] for root in found], complex)
     at = np.array([root[1] for root in found], float)
     order = np.argsort(at)
     return roots_at(problem, p[order], at[order])
 
 
-def _minima(
-    problem: AeroelasticProblem, path: EigenvaluePath, fastest: float, zooms: int
+def _extrema(
+    problem: AeroelasticProblem, path: EigenvaluePath, fastest: float, sign: float, zooms: int
 ) -> list[tuple[float, float]]:
-    """Return p and U of every minimum of U(p) along the branches of a path.
+    """Return p and U of every minimum or maximum of U(p) along the branches of a path.
 
     Where two branches come too near to tell them apart between two points, the path is refined.
     """
     t, speed = path.parameter, _real_inverse(path) ** (-1.0 / path.power)
-    slope = _slopes(problem, path.p, np.where(speed < fastest, speed, np.nan))
+    slope = sign * _slopes(problem, path.p, np.where(speed < fastest, speed, np.nan))
     with np.errstate(invalid="ignore"):
-        minimum = (slope[:-1] < 0.0) & (slope[1:] > 0.0)
+        turning = (slope[:-1] < 0.0) & (slope[1:] > 0.0)
     found = []
-    for row, column in zip(*np.nonzero(minimum), strict=True):
+    for row, column in zip(*np.nonzero(turning), strict=True):
         ends, near = t[row : row + 2], speed[row : row + 2, column]
-        merger = _merger(problem, ends, near)
-        if merger is not None:
-            found.append(merger)
+        extremum = _extremum(problem, ends, near, sign)
+        if extremum is not None:
+            found.append(extremum)
         elif zooms > 0:
             closer = np.linspace(ends[0], ends[1], 9)
             finer = follow_path(problem, _point, closer, fastest)
-            found += _minima(problem, finer, fastest, zooms - 1)
+            found += _extrema(problem, finer, fastest, sign, zooms - 1)
     return found
 
 
@@ -98,13 +134,15 @@ def _slopes(problem: AeroelasticProblem, p: Complex, speed: Real) -> Real:
     return slope
 
 
-def _merger(problem: AeroelasticProblem, t: Real, near: Real) -> tuple[float, float] | None:
+def _extremum(
+    problem: AeroelasticProblem, t: Real, near: Real, sign: float
+) -> tuple[float, float] | None:
     """Solve dU/dp = 0 between two values of ln p with airspeeds ``near``; None when it fails."""
 
     def state(at: float) -> tuple[float, float]:
         p = _point(np.array([at]))
         speed = _speed(problem, p, float(np.interp(at, t, near)))
-        return float(_slopes(problem, p, np.array([[speed]]))[0, 0]), speed
+        return sign * float(_slopes(problem, p, np.array([[speed]]))[0, 0]), speed
 
     if not state(t[0])[0] < 0.0 < state(t[1])[0]:
         return None

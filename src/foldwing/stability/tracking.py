@@ -209,7 +209,7 @@ class Loci:
     residual, confidence : array, shape (u, r)
     status : array of int, shape (u, r)
     mode : array of int, shape (r,)
-        Column of T that the branch starts from at rest.
+        Column of T that the branch starts from at rest; -1 when it does not start there.
     """
 
     speed: Real
@@ -218,6 +218,21 @@ class Loci:
     confidence: Real
     status: Indices
     mode: Indices
+
+    def joined(self, upward: "Loci", above: Indices, downward: "Loci", below: Indices) -> "Loci":
+        """Return these loci with one more branch, recorded at the speeds above and below."""
+        shape = (len(self.speed), 1)
+        empty = {
+            "eigenvalue": np.full(shape, complex(np.nan, 0.0)),
+            "residual": np.full(shape, np.nan),
+            "confidence": np.zeros(shape),
+            "status": np.full(shape, int(Status.ABSENT)),
+        }
+        columns = {}
+        for name, column in empty.items():
+            column[above], column[below] = getattr(upward, name), getattr(downward, name)
+            columns[name] = np.hstack([getattr(self, name), column])
+        return replace(self, mode=np.append(self.mode, -1), **columns)
 
 
 def track(problem: AeroelasticProblem, speeds: Real) -> Loci:
@@ -230,21 +245,34 @@ def track(problem: AeroelasticProblem, speeds: Real) -> Loci:
         In m/s, ascending, not negative.
     """
     start = still_air_roots(problem)
-    shape = (len(speeds), len(start.eigenvalue))
-    values, residual = np.full(shape, np.nan + 0j), np.full(shape, np.nan)
-    confidence, status = np.ones(shape), np.zeros(shape, int)
     branches = _launched(problem, start, float(speeds[-1]))
+    moving = record(problem, branches, speeds[speeds > 0.0])
+    resting = int(np.count_nonzero(speeds == 0.0))
+    shape = (resting, len(start.mode))
+    return Loci(
+        speed=np.asarray(speeds, float),
+        eigenvalue=np.vstack([np.tile(start.eigenvalue, (resting, 1)), moving.eigenvalue]),
+        residual=np.vstack([np.zeros(shape), moving.residual]),
+        confidence=np.vstack([np.ones(shape), moving.confidence]),
+        status=np.vstack([np.zeros(shape, int), moving.status]),
+        mode=start.mode,
+    )
+
+
+def record(problem: AeroelasticProblem, branches: Branches, speeds: Real) -> Loci:
+    """Follow branches through positive airspeeds, ascending or descending, and write them down."""
+    shape = (len(speeds), len(branches.speed))
+    values, residual = np.full(shape, complex(np.nan, 0.0)), np.full(shape, np.nan)
+    confidence, status = np.zeros(shape), np.zeros(shape, int)
     for row, speed in enumerate(speeds):
-        if speed == 0.0:
-            values[row], residual[row] = start.eigenvalue, 0.0
-            continue
         branches = _advanced_apart(problem, branches, float(speed))
         alive = branches.alive
         values[row, alive] = branches.eigenvalue[alive]
         residual[row, alive] = branches.residual[alive]
-        confidence[row] = np.where(alive, branches.confidence, 0.0)
+        confidence[row, alive] = branches.confidence[alive]
         status[row] = branches.status
-    return Loci(np.asarray(speeds, float), values, residual, confidence, status, start.mode)
+    unknown = np.full(shape[1], -1)
+    return Loci(np.asarray(speeds, float), values, residual, confidence, status, unknown)
 
 
 def _launched(problem: AeroelasticProblem, start: StillAirRoots, fastest: float) -> Branches:

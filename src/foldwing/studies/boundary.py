@@ -12,17 +12,21 @@ from foldwing.results.flutter_table import table_variables
 from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.status import Status
+from foldwing.structure.following import follow_modes
 from foldwing.studies.case import Case, solve_case
 from foldwing.studies.flutter import METHODS
-from foldwing.studies.grid import swept_hinge
+from foldwing.studies.grid import radians, swept_hinge
 from foldwing.studies.measured import Measured
-from foldwing.studies.modes import fold_coordinates
+from foldwing.studies.modes import fold_coordinates, mode_variables
 from foldwing.studies.speeds import speed_range
 
 if TYPE_CHECKING:
     import xarray
 
 Variables = dict[str, Any]
+
+NUMERICAL_FAILURES = (ArithmeticError, np.linalg.LinAlgError, ValueError, FoldwingError)
+"""What a hopeless case may raise: it becomes part of the result."""
 
 
 @dataclass(frozen=True)
@@ -129,7 +133,7 @@ def boundary_study(
     attrs |= {} if hinge is None else {"swept": f"fold_{hinge}"}
     if len(outcomes) < len(cases):
         attrs["interrupted"] = f"{len(outcomes)} of {len(cases)} cases finished"
-    dataset = _dataset(outcomes, overlay, attrs)
+    dataset = _dataset(model, outcomes, overlay, attrs)
     return Boundary(dataset, tuple(outcomes), len(cases))
 
 
@@ -155,12 +159,15 @@ def attempt(
     """Solve one case of a sweep; a numerical failure becomes part of the result."""
     try:
         return Outcome(folds, solve_case(model, folds, speeds))
-    except (ArithmeticError, np.linalg.LinAlgError, ValueError, FoldwingError) as problem:
+    except NUMERICAL_FAILURES as problem:
         return Outcome(folds, None, f"{type(problem).__name__}: {problem}")
 
 
 def _dataset(
-    outcomes: Sequence[Outcome], overlay: tuple[Variables, Variables], attrs: Mapping[str, Any]
+    model: AeroelasticWing,
+    outcomes: Sequence[Outcome],
+    overlay: tuple[Variables, Variables],
+    attrs: Mapping[str, Any],
 ) -> "xarray.Dataset":
     rows = [
         row
@@ -168,27 +175,25 @@ def _dataset(
         if outcome.case is not None
         for row in outcome.case.rows(index)
     ]
-    variables = table_variables(rows) | _frequencies(outcomes) | _verdicts(outcomes) | overlay[0]
-    coords = fold_coordinates([outcome.folds for outcome in outcomes]) | overlay[1]
+    folds = [outcome.folds for outcome in outcomes]
+    variables = (
+        table_variables(rows) | _frequencies(model, folds) | _verdicts(outcomes) | overlay[0]
+    )
+    coords = fold_coordinates(folds) | overlay[1]
     coords["flutter_point"] = (("flutter_point",), np.arange(len(rows)))
-    count = len(variables["natural_frequency"][1][0])
-    coords["mode"] = (("mode",), np.arange(1, count + 1))
+    if "natural_frequency" in variables:
+        count = variables["natural_frequency"][1].shape[1]
+        coords["mode"] = (("mode",), np.arange(1, count + 1))
     return build_dataset(variables, coords, attrs)
 
 
-def _frequencies(outcomes: Sequence[Outcome]) -> Variables:
-    """Return natural frequencies in ascending order and names, nan and empty where failed."""
-    solved = [outcome.case.modes.count for outcome in outcomes if outcome.case is not None]
-    shape = (len(outcomes), max(solved, default=0))
-    frequency = np.full(shape, np.nan)
-    names = np.full(shape, "", dtype="<U4")
-    for row, outcome in enumerate(outcomes):
-        if outcome.case is not None:
-            count = outcome.case.modes.count
-            frequency[row, :count] = outcome.case.modes.frequencies
-            names[row, :count] = outcome.case.modes.names
-    dims = ("fold", "mode")
-    return {"natural_frequency": (dims, frequency), "mode_name": (dims, names)}
+def _frequencies(model: AeroelasticWing, cases: Sequence[tuple[float, ...]]) -> Variables:
+    """Return the natural frequencies of the finished cases, followed from one to the next."""
+    try:
+        followed = follow_modes(model.assembly, [radians(case) for case in cases])
+    except NUMERICAL_FAILURES:
+        return {}
+    return mode_variables(followed)
 
 
 def _verdicts(outcomes: Sequence[Outcome]) -> Variables:

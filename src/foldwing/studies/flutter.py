@@ -104,8 +104,7 @@ def _loci_variables(loci: RootLoci, case: Case) -> Variables:
     values = loci.eigenvalue
     with np.errstate(divide="ignore", invalid="ignore"):
         damping = np.where(values.imag == 0.0, np.nan, -values.real / np.abs(values.imag))
-    names = [case.modes.names[mode] for mode in loci.mode if mode >= 0]
-    names += [f"D{number}" for number in range(1, int((loci.mode < 0).sum()) + 1)]
+    names = _branch_names(loci, case.modes.names)
     frequency = np.where(np.isnan(values.real), np.nan, np.abs(values.imag) / (2.0 * np.pi))
     return {
         "eigenvalue": (dims, values[None]),
@@ -118,6 +117,21 @@ def _loci_variables(loci: RootLoci, case: Case) -> Variables:
         "loci_certified": (("fold", "speed"), loci.certified[None]),
         "branch_name": (("mode",), np.array(names)),
     }
+
+
+def _branch_names(loci: RootLoci, modes: tuple[str, ...]) -> list[str]:
+    """Return mode names, D1 ... for real roots and P1 ... for pairs born of real roots."""
+    real = np.nan_to_num(np.abs(loci.eigenvalue.imag)).max(axis=0) == 0.0
+    counts = {"D": 0, "P": 0}
+    names = []
+    for mode, is_real in zip(loci.mode, real, strict=True):
+        if mode >= 0:
+            names.append(modes[mode])
+            continue
+        letter = "D" if is_real else "P"
+        counts[letter] += 1
+        names.append(f"{letter}{counts[letter]}")
+    return names
 
 
 def _shape_variables(case: Case, grid: SurfaceGrid) -> Variables:
