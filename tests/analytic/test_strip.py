@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import scipy.linalg
 from scipy.special import hankel2, kv
 
 from foldwing.aerodynamics.strip import StripModel, strip_forces, strip_model
@@ -74,10 +75,10 @@ def direct_forces(section, C, p, plunge, twist, weights):
     return Q
 
 
-def single_section(segment, lag=True):
-    """Strip theory of one metre of a rigid section; coordinates plunge up and twist."""
-    one, zero = np.ones((1, 1)), np.zeros((1, 1))
-    forces = strip_forces(segment, RHO, np.ones(1), np.hstack([one, zero]), np.hstack([zero, one]))
+def single_section(segment, lag=True, span=1.0):
+    """Strip theory of a rigid piece of wing; coordinates plunge up and twist."""
+    plunge, twist = np.array([[1.0, 0.0]]), np.array([[0.0, 1.0]])
+    forces = strip_forces(segment, RHO, np.array([span]), plunge, twist)
     return strip_model([forces], [np.eye(2)], segment.half_chord, lag)
 
 
@@ -240,22 +241,17 @@ def test_apparent_mass_of_a_wing_is_symmetric_and_positive(model):
 def typical_section_system(section, half_chord):
     """The section's two structural modes in foldwing's strip theory; frequencies in omega_1.
 
-    The section's plunge is positive down and its mass 1; foldwing's is up.
+    Of one metre of span with m b^2 = 1. The section measures plunge in half chords, down.
     """
     b = half_chord
-    to_up = np.diag([-1 / b, 1.0])  # its plunge in half chords, down, of ours in metres, up
-    M, K = (to_up.T @ A @ to_up for A in (section.mass, section.stiffness))
-    values, shapes = np.linalg.eig(np.linalg.solve(M, K))
-    shapes = shapes / np.sqrt(np.einsum("im,ij,jm->m", shapes, M, shapes))
+    from_up = np.diag([-1 / b, 1.0])
+    M, K = (from_up.T @ A @ from_up for A in (section.mass, section.stiffness))
+    values, shapes = scipy.linalg.eigh(K, M)
     segment = section_segment(section.a, 2 * np.pi, chord=2 * b)
-    density = section.inverse_mass_ratio / (np.pi * b**2) / b**2  # with b^2 for mass in M
-    zero, one = np.zeros((1, 1)), np.ones((1, 1))
-    plunge, twist = np.hstack([one, zero]), np.hstack([zero, one])
-    forces = strip_forces(segment, density * b**2, np.ones(1) / b**2, plunge, twist)
-    model = strip_model([forces], [shapes], b, True)
-    order = np.argsort(values)
-    assert order.tolist() == [0, 1]
-    return AeroelasticSystem(np.sqrt(values), model)
+    density = section.inverse_mass_ratio / (np.pi * b**4)
+    plunge, twist = np.array([[1.0, 0.0]]), np.array([[0.0, 1.0]])
+    forces = strip_forces(segment, density, np.ones(1), plunge, twist)
+    return AeroelasticSystem(np.sqrt(values), strip_model([forces], [shapes], b, True))
 
 
 @pytest.mark.parametrize("half_chord", [1.0, 0.25])
@@ -281,16 +277,15 @@ def test_rigid_wing_on_springs_is_the_typical_section(section, half_chord):
         assert ours.p == pytest.approx(theirs.p, abs=1e-9)
 
 
-def test_rigid_wing_on_springs_has_the_published_flutter_and_divergence():
-    """Hodges and Pierce's section: U / (b omega_theta) 2.828427 is the divergence of
-    sqrt(r^2 / (2 mu_a (1/2 + a))), found here with wing-level strip theory."""
+def test_rigid_wing_on_springs_has_its_closed_form_divergence():
+    """U / (b omega_theta) = sqrt(m r^2 / (2 pi rho b^2 (1/2 + a))), 2.828427 for Hodges and
+    Pierce's section, by the forces of a wing."""
     section = TypicalSection()
     points = find_flutter(typical_section_system(section, 0.5), (0.1, 6.0)).points
-    divergence = next(point for point in points if point.kind == "divergence")
-    lift = 2 * section.inverse_mass_ratio * (0.5 + section.a)
-    closed = np.sqrt(1 / section.inverse_inertia / lift)
-    assert closed == pytest.approx(2.828427, abs=1e-6)
-    assert divergence.speed / 0.5 / section.pitch_frequency == pytest.approx(closed, rel=1e-8)
+    (divergence,) = (point for point in points if point.kind == "divergence")
+    speed = divergence.speed / 0.5 / section.pitch_frequency
+    assert speed == pytest.approx(np.sqrt(20 * 0.24 / (2 * 0.3)), rel=1e-8)
+    assert speed == pytest.approx(2.828427, abs=1e-6)
 
 
 def test_singular_at_flutter_only():
@@ -321,9 +316,7 @@ def test_straight_wing_diverges_at_the_closed_form(model, highest, theory):
 def test_halves_of_a_section_act_as_the_whole():
     """Forces add over segments: two halves of the span, kept apart, give those of the whole."""
     segment = section_segment(0.1, 2 * np.pi)
-    one, zero = np.ones((1, 1)), np.zeros((1, 1))
-    motion = np.hstack([one, zero]), np.hstack([zero, one])
-    half = strip_forces(segment, RHO, np.full(1, 0.5), *motion)
+    (half,) = single_section(segment, span=0.5).segments
     halves = StripModel(segment.half_chord, (half, half))
     whole = single_section(segment)
     np.testing.assert_allclose(halves.forces(GENERAL), whole.forces(GENERAL), rtol=1e-13)

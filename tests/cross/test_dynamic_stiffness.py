@@ -49,8 +49,9 @@ def exact(wing, folds, count):
 
 def converged(wing, folds, count):
     """Angular frequencies of the wing in the converged basis, rigid motions left out."""
-    bending = 10 if wing.hinges else 15  # fewer half waves fall on each of several segments
-    wing = wing.with_analysis(basis="converged", bending_modes=bending, torsion_modes=9)
+    counts = (10, 9) if wing.hinges else (15, 14)  # several segments share the half waves
+    bending, torsion = counts
+    wing = wing.with_analysis(basis="converged", bending_modes=bending, torsion_modes=torsion)
     modes = natural_modes(assemble(wing), tuple(np.radians(folds)), count + 4)
     return modes.omega[modes.omega > 0][:count]
 

@@ -133,23 +133,30 @@ class StripModel:
         C, dC = theodorsen_with_derivative(p * ratio)
         return C, ratio * dC
 
+    def _factors(self, p: Complex) -> tuple[Complex, Complex]:
+        """Return what the terms are multiplied by and its derivative, each (m, terms)."""
+        value, slope = np.zeros((2, len(p), len(self._terms)), complex)
+        value[:, 0], value[:, 1], value[:, 2] = 1.0, p, p * p
+        slope[:, 1], slope[:, 2] = 1.0, 2.0 * p
+        for number, chord in enumerate(self._chords):
+            C, dC = self._lag(p, chord)
+            column = 3 + 2 * number
+            value[:, column], value[:, column + 1] = C, p * C
+            slope[:, column], slope[:, column + 1] = dC, C + p * dC
+        return value, slope
+
     def forces(self, p: Complex) -> Complex:
         """Return Qhat at the values ``p`` of shape (m,), as an array (m, n, n)."""
-        return self.forces_with_derivative(p)[0]
+        p = np.asarray(p, complex)
+        value, _ = self._factors(p)
+        return (value @ self._terms).reshape(len(p), self.size, self.size)
 
     def forces_with_derivative(self, p: Complex) -> tuple[Complex, Complex]:
         """Return Qhat and dQhat/dp, each of shape (m, n, n)."""
         p = np.asarray(p, complex)
-        one, zero = np.ones_like(p), np.zeros_like(p)
-        values, slopes = [one, p, p**2], [zero, one, 2 * p]
-        for chord in self._chords:
-            C, dC = self._lag(p, chord)
-            values += [C, p * C]
-            slopes += [dC, C + p * dC]
+        value, slope = self._factors(p)
         shape = (len(p), self.size, self.size)
-        value = (np.stack(values, axis=1) @ self._terms).reshape(shape)
-        slope = (np.stack(slopes, axis=1) @ self._terms).reshape(shape)
-        return value, slope
+        return (value @ self._terms).reshape(shape), (slope @ self._terms).reshape(shape)
 
     def steady_forces(self) -> Real:
         """Return Qhat(0), shape (n, n)."""

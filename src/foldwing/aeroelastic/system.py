@@ -90,6 +90,10 @@ class AeroelasticSystem:
         return np.diag(self.scale**2)
 
     @cached_property
+    def _scaling(self) -> Real:
+        return np.outer(self.scale, self.scale)
+
+    @cached_property
     def _stiffness(self) -> Complex:
         return np.diag(np.where(self.rigid, 0.0, 1.0)).astype(complex)
 
@@ -101,51 +105,56 @@ class AeroelasticSystem:
 
     def pencil(self, p: Complex) -> Pencil:
         """Return the coefficients of T at the values ``p``, shape (m,)."""
-        return self.pencil_with_derivative(p)[0]
+        p = np.asarray(p, complex)
+        ratio = (p / self.half_chord)[:, None, None]
+        minus_B = self._in_coordinates(self.aerodynamics.forces(p), ratio**2)
+        damping = None if self._damping is None else ratio * self._damping
+        if not self.rigid.any():
+            return Pencil(self._stiffness, damping, minus_B)
+        constant = np.where(self.rigid, minus_B, self._stiffness)
+        constant[:, :, self.neutral] /= p[:, None, None]
+        return Pencil(constant, damping, np.where(self.rigid, 0.0, minus_B))
 
     def pencil_with_derivative(self, p: Complex) -> tuple[Pencil, Pencil]:
         """Return the coefficients of T and their derivatives with respect to p."""
         p = np.asarray(p, complex)
-        b, V, s = self.half_chord, self.rotation, self.scale
+        b = self.half_chord
+        ratio = (p / b)[:, None, None]
         Q, dQ = self.aerodynamics.forces_with_derivative(p)
+        minus_B = self._in_coordinates(Q, ratio**2)
+        slope = self._in_coordinates(dQ, (2.0 / b) * ratio)
+        damping, damping_slope = None, None
+        if self._damping is not None:
+            damping = ratio * self._damping
+            damping_slope = np.broadcast_to(self._damping / b, damping.shape).astype(complex)
         if self.rigid.any():
-            Q, dQ = V.T @ Q @ V, V.T @ dQ @ V
-        scaling = np.outer(s, s)
-        minus_B, slope = -scaling * Q, -scaling * dQ
-        diagonal = np.arange(self.size)
-        minus_B[:, diagonal, diagonal] += (p / b)[:, None] ** 2 * s**2
-        slope[:, diagonal, diagonal] += (2 * p / b**2)[:, None] * s**2
-        damping, damping_slope = self._damping_terms(p)
-        if not self.rigid.any():
-            zero = np.zeros((self.size, self.size), complex)
-            return Pencil(self._stiffness, damping, minus_B), Pencil(zero, damping_slope, slope)
-        return self._with_rigid_columns(p, minus_B, slope, damping, damping_slope)
+            return self._with_rigid_columns(p, (minus_B, slope), (damping, damping_slope))
+        zero = np.zeros_like(self._stiffness)
+        return Pencil(self._stiffness, damping, minus_B), Pencil(zero, damping_slope, slope)
 
-    def _damping_terms(self, p: Complex) -> tuple[Complex | None, Complex | None]:
-        if self._damping is None:
-            return None, None
-        slope = np.broadcast_to(self._damping / self.half_chord, (len(p), *self._damping.shape))
-        return p[:, None, None] * slope, slope.astype(complex)
+    def _in_coordinates(self, forces: Complex, inertia: Complex) -> Complex:
+        """Return ``inertia`` times the mass less the forces, in the coordinates of T."""
+        if self.rigid.any():
+            forces = self.rotation.T @ forces @ self.rotation
+        return np.asarray(inertia * self.mass - self._scaling * forces)
 
     def _with_rigid_columns(
         self,
         p: Complex,
-        minus_B: Complex,
-        slope: Complex,
-        damping: Complex | None,
-        damping_slope: Complex | None,
+        inertia_less_forces: tuple[Complex, Complex],
+        damping: tuple[Complex | None, Complex | None],
     ) -> tuple[Pencil, Pencil]:
         """Move the columns of rigid motions to the constant term, divided by p if neutral."""
         rigid, neutral = self.rigid, self.neutral
+        minus_B, slope = inertia_less_forces
         constant = np.where(rigid, minus_B, self._stiffness)
         constant_slope = np.where(rigid, slope, 0.0)
         divided = constant[:, :, neutral] / p[:, None, None]
         constant[:, :, neutral] = divided
         constant_slope[:, :, neutral] = (constant_slope[:, :, neutral] - divided) / p[:, None, None]
-        quadratic, quadratic_slope = np.where(rigid, 0.0, minus_B), np.where(rigid, 0.0, slope)
         return (
-            Pencil(constant, damping, quadratic),
-            Pencil(constant_slope, damping_slope, quadratic_slope),
+            Pencil(constant, damping[0], np.where(rigid, 0.0, minus_B)),
+            Pencil(constant_slope, damping[1], np.where(rigid, 0.0, slope)),
         )
 
     def modal_vectors(self, p: Complex, speed: Real, x: Complex) -> Complex:

@@ -100,9 +100,9 @@ def flutter(
         fold_of,
         basis=basis,
         aero=aero,
-        damping=damping,
-        damping_threshold=damping_threshold,
-        max_speed=max_speed,
+        damping=options.number("--damping", damping, "0.01"),
+        damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
+        max_speed=options.number("--max-speed", max_speed, "60"),
         speeds=speeds,
     )
     run_flutter(request, Output(plot, out, force, json))
@@ -119,7 +119,7 @@ def boundary(
     damping: options.Damping = None,
     damping_threshold: options.Threshold = None,
     measured: options.Measured = None,
-    jobs: options.Jobs = 1,
+    jobs: options.Jobs = "1",
     plot: options.Plot = True,
     out: options.Out = None,
     force: options.Force = False,
@@ -134,10 +134,10 @@ def boundary(
         fold_of,
         basis=basis,
         aero=aero,
-        damping=damping,
-        damping_threshold=damping_threshold,
-        max_speed=max_speed,
+        damping=options.number("--damping", damping, "0.01"),
+        damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
+        max_speed=options.number("--max-speed", max_speed, "60"),
         measured=measured,
-        jobs=jobs,
+        jobs=options.whole_number("--jobs", jobs),
     )
     run_boundary(request, Output(plot, out, force, json))

@@ -1,7 +1,9 @@
 """What the commands do: read, check, compute, answer, write."""
 
+import contextlib
 import json
 import sys
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from foldwing.cli import tables
-from foldwing.errors import InputError, OutputError
+from foldwing.errors import ComputationError, InputError, OutputError
 from foldwing.model import (
     Wing,
     example_text,
@@ -57,13 +59,29 @@ class Request:
             "damping_threshold": self.damping_threshold,
         }
         given = {key: value for key, value in changes.items() if value is not None}
-        return wing.with_analysis(**given) if given else wing
+        try:
+            return wing.with_analysis(**given) if given else wing
+        except InputError as problem:
+            key = problem.field.removeprefix("analysis.")
+            raise InputError(
+                f"--{key.replace('_', '-')}", problem.value, problem.limit, problem.remedy
+            ) from None
 
     def cases(self, wing: Wing) -> list[tuple[float, ...]]:
         """Return the fold angles in degrees of every case."""
         from foldwing.studies.grid import fold_cases
 
-        return fold_cases(wing, self.fold, dict(_hinge(text) for text in self.fold_of or []))
+        return fold_cases(wing, self.fold, _by_hinge(self.fold_of or []))
+
+    def one_case(self, wing: Wing) -> tuple[float, ...]:
+        """Return the fold angles in degrees when only one case is possible."""
+        cases = self.cases(wing)
+        if len(cases) > 1:
+            given = ", ".join(self.fold_of or [])
+            limit = f"flutter takes one set of fold angles, not {len(cases)}"
+            remedy = "Give one angle for each hinge, or use: foldwing boundary."
+            raise InputError("--fold-of", given, limit, remedy)
+        return cases[0]
 
 
 @dataclass(frozen=True)
@@ -86,13 +104,21 @@ class Output:
         return folder
 
 
-def _hinge(text: str) -> tuple[int, str]:
-    number, _, value = text.partition("=")
-    if not number.isdigit() or not value:
-        limit = "must be a hinge from 2 and its angle"
+def _by_hinge(texts: list[str]) -> dict[int, str]:
+    """Return what ``I=ANGLE`` or ``--foldI ANGLE`` gave for each hinge."""
+    result: dict[int, str] = {}
+    for text in texts:
+        number, _, value = text.partition("=")
         remedy = "Write --fold2 30, --fold2 0:150:5 or --fold3 level."
-        raise InputError("--fold-of", text, limit, remedy)
-    return int(number), value
+        if not number.isdecimal():
+            raise InputError("--fold-of", text, "must be a hinge from 2 and its angle", remedy)
+        hinge = int(number)
+        if not value.strip():
+            raise InputError(f"--fold{hinge}", None, "needs an angle", remedy)
+        if hinge in result:
+            raise InputError(f"--fold{hinge}", value, "was given already", "Give it once.")
+        result[hinge] = value
+    return result
 
 
 def run_examples(name: str | None, copy: Path | None) -> None:
@@ -114,7 +140,8 @@ def run_examples(name: str | None, copy: Path | None) -> None:
     except FileExistsError:
         raise OutputError(f"--copy: {copy} exists already. Give the name of a new file.") from None
     except OSError as problem:
-        raise OutputError(f"--copy: {copy} cannot be written ({problem.strerror}).") from None
+        reason = f"cannot be written ({problem.strerror})"
+        raise OutputError(f"--copy: {copy} {reason}. Give another file.") from None
     typer.echo(f"{name} -> {copy}")
 
 
@@ -128,7 +155,7 @@ def run_modes(request: Request, output: Output) -> None:
     text = model_text(request.model)
     wing = request.wing(text)
     cases = request.cases(wing)
-    measured = _measured(request)
+    measured = _measured(request, cases)
     folder = output.folder("modes", request.model)
 
     from foldwing.results import Source
@@ -151,28 +178,26 @@ def run_flutter(request: Request, output: Output) -> None:
     """Compute flutter points and loci of one case."""
     text = model_text(request.model)
     wing = request.wing(text)
-    cases = request.cases(wing)
-    if len(cases) > 1:
-        limit = f"flutter takes one set of fold angles, not {len(cases)}"
-        remedy = "Use: foldwing boundary, for ranges of fold angles."
-        raise InputError("--fold", "a range", limit, remedy)
+    folds = request.one_case(wing)
 
     from foldwing.aeroelastic.wing import AeroelasticWing
     from foldwing.results import Source
     from foldwing.studies.answers import flutter_answer
     from foldwing.studies.flutter import flutter_study
     from foldwing.studies.grid import parse_speeds
+    from foldwing.studies.speeds import check_highest
 
     speeds = None if request.speeds is None else parse_speeds(request.speeds)
-    model = AeroelasticWing(wing, request.aero)
+    check_highest(request.max_speed)
     folder = output.folder("flutter", request.model)
-    dataset, case = flutter_study(
-        model,
-        cases[0],
-        speeds=speeds,
-        highest=request.max_speed,
-        source=Source(text, request.options),
-    )
+    with _computing():
+        dataset, case = flutter_study(
+            AeroelasticWing(wing, request.aero),
+            folds,
+            speeds=speeds,
+            highest=request.max_speed,
+            source=Source(text, request.options),
+        )
     if output.json:
         _print_json(flutter_answer(case))
     else:
@@ -185,15 +210,17 @@ def run_boundary(request: Request, output: Output) -> None:
     text = model_text(request.model)
     wing = request.wing(text)
     cases = request.cases(wing)
-    measured = _measured(request)
-    folder = output.folder("boundary", request.model)
+    measured = _measured(request, cases)
 
     from foldwing.aeroelastic.wing import AeroelasticWing
     from foldwing.results import Source
     from foldwing.studies.answers import boundary_answer
     from foldwing.studies.boundary import boundary_study
+    from foldwing.studies.speeds import check_highest
 
-    with tables.progress("Fold angles", len(cases)) as advance:
+    check_highest(request.max_speed)
+    folder = output.folder("boundary", request.model)
+    with _computing(), tables.progress("Fold angles", len(cases)) as advance:
         result = boundary_study(
             AeroelasticWing(wing, request.aero),
             cases,
@@ -213,12 +240,30 @@ def run_boundary(request: Request, output: Output) -> None:
         raise typer.Exit(FAILED)
 
 
-def _measured(request: Request) -> Any:
+def _measured(request: Request, cases: list[tuple[float, ...]]) -> Any:
+    """Return the measured points, checked to have the angle that is swept."""
     if request.measured is None:
         return None
+    from foldwing.studies.grid import swept_hinge
     from foldwing.studies.measured import read_measured
 
-    return read_measured(request.measured)
+    measured = read_measured(request.measured)
+    measured.variables(swept_hinge(cases))
+    return measured
+
+
+@contextlib.contextmanager
+def _computing() -> Iterator[None]:
+    """Name a numerical failure that left nothing to show."""
+    import numpy as np
+
+    try:
+        yield
+    except (ArithmeticError, np.linalg.LinAlgError) as problem:
+        raise ComputationError(
+            f"the computation failed ({type(problem).__name__}: {problem}). Check the order of "
+            "magnitude of the model's values and of the airspeeds."
+        ) from problem
 
 
 def _print_json(answer: dict[str, Any]) -> None:

@@ -1,9 +1,14 @@
-"""Arguments and options that commands share."""
+"""Arguments and options that commands share.
+
+Numbers arrive as text, so that `number` and `whole_number` word their errors like all others.
+"""
 
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
+
+from foldwing.errors import InputError
 
 Model = Annotated[
     str,
@@ -31,15 +36,15 @@ Speeds = Annotated[
     typer.Option(
         "--speeds",
         metavar="A:B:STEP",
-        help="Airspeeds of the curves in m/s, and the end of the search for flutter points.",
+        help="Airspeeds of the curves in m/s; the last one ends the search for flutter points.",
     ),
 ]
 MaxSpeed = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         "--max-speed",
         metavar="M/S",
-        help="End of the search for flutter points.  [default: 3 x divergence of the flat wing]",
+        help="End of the search for flutter points. (default: 3 x divergence of the flat wing)",
     ),
 ]
 Aero = Annotated[
@@ -51,7 +56,7 @@ Basis = Annotated[
     typer.Option("--basis", help="Component modes, instead of the model's."),
 ]
 Damping = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         "--damping",
         metavar="RATIO",
@@ -59,7 +64,7 @@ Damping = Annotated[
     ),
 ]
 Threshold = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         "--damping-threshold",
         metavar="RATIO",
@@ -74,16 +79,14 @@ Measured = Annotated[
         help="Measured points to lay over the picture: a CSV file or a shipped table.",
     ),
 ]
-Jobs = Annotated[
-    int, typer.Option("--jobs", min=1, metavar="N", help="Processes to run in parallel.")
-]
+Jobs = Annotated[str, typer.Option("--jobs", metavar="N", help="Processes to run in parallel.")]
 Plot = Annotated[bool, typer.Option("--plot/--no-plot", help="Draw pictures and a report.")]
 Out = Annotated[
     Path | None,
     typer.Option(
         "--out",
         metavar="DIR",
-        help="Folder of the result.  [default: a new dated folder]",
+        help="Folder of the result. (default: a new dated folder)",
     ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Replace an existing result in --out.")]
@@ -91,3 +94,22 @@ Json = Annotated[
     bool,
     typer.Option("--json", help="One JSON document on standard output; no files without --out."),
 ]
+
+
+def number(field: str, text: str | None, example: str) -> float | None:
+    """Return the number that an option was given, None when it was left out."""
+    if text is None:
+        return None
+    try:
+        return float(text)
+    except ValueError:
+        remedy = f"Write it without a unit, for example {field} {example}."
+        raise InputError(field, text, "must be a number", remedy) from None
+
+
+def whole_number(field: str, text: str) -> int:
+    """Return the whole number, 1 or more, that an option was given."""
+    if not text.isdecimal() or int(text) < 1:
+        remedy = f"Write it in digits, for example {field} 4."
+        raise InputError(field, text, "must be a whole number, 1 or more", remedy)
+    return int(text)

@@ -12,14 +12,19 @@ if TYPE_CHECKING:
     import xarray
 
     from foldwing.model import ExampleInfo
+    from foldwing.results import FlutterRow
     from foldwing.studies.boundary import Outcome
 
 MOST_ROWS = 40
-"""Rows of a table above which only the critical point of each case is shown."""
+"""Cases above which the table shows the critical point of each alone."""
+
+MOST_MODES = 6
+"""Natural frequencies of each case that the table of a sweep shows."""
 
 
-def _table(title: str, *columns: str) -> Table:
-    table = Table(title=title, title_justify="left", header_style="bold", box=None, pad_edge=False)
+def _table(*columns: str) -> Table:
+    """Return a table; columns whose heads are in lower case hold words, the others numbers."""
+    table = Table(header_style="bold", box=None, pad_edge=False)
     for column in columns:
         table.add_column(column, justify="left" if column.islower() else "right")
     return table
@@ -27,28 +32,34 @@ def _table(title: str, *columns: str) -> Table:
 
 def show_examples(models: "Sequence[ExampleInfo]", measurements: Sequence[str]) -> None:
     """Print the names of what is shipped."""
-    table = _table("", "model", "what it is")
+    table = _table("model", "what it is")
     for model in models:
         table.add_row(model.name, model.title)
-    console = Console()
+    console = Console(highlight=False)
     console.print(table)
-    console.print(f"\nMeasured points: {', '.join(measurements)}", highlight=False)
+    console.print(f"\nMeasured points: {', '.join(measurements)}")
 
 
 def show_modes(answers: Sequence[dict[str, Any]]) -> None:
-    """Print natural frequencies, one column per mode for a sweep."""
+    """Print natural frequencies, one line per case in a sweep."""
     first = answers[0]
-    names = first["mode_names"]
+    names, folds = first["mode_names"], first["fold"]
+    console = Console(highlight=False)
     if len(answers) == 1:
-        table = _table(_title("Natural frequencies", first["fold"]), "mode", "Hz")
+        table = _table("mode", "Hz")
         for name, frequency in zip(names, first["natural_frequencies_hz"], strict=True):
             table.add_row(name, f"{frequency:.5g}")
+        console.print("Natural frequencies" + (f" at {_fold(folds)}" if folds else ""))
     else:
-        table = _table("Natural frequencies in Hz", "fold, deg", *(f"{n} Hz" for n in names[:6]))
+        table = _table("fold, deg", *names[:MOST_MODES])
         for answer in answers:
-            frequencies = answer["natural_frequencies_hz"][:6]
+            frequencies = answer["natural_frequencies_hz"][:MOST_MODES]
             table.add_row(_angles(answer["fold"]), *(f"{f:.4g}" for f in frequencies))
-    Console().print(table)
+        part = f", the lowest {MOST_MODES} of {len(names)}" if len(names) > MOST_MODES else ""
+        console.print(
+            f"Natural frequencies in Hz{part}; each mode keeps its name of the first case"
+        )
+    console.print(table)
 
 
 def show_flutter(dataset: "xarray.Dataset") -> None:
@@ -57,45 +68,64 @@ def show_flutter(dataset: "xarray.Dataset") -> None:
     from foldwing.results.summary import answer, certificate
 
     rows = flutter_rows(dataset)
-    columns = ("U m/s", "f Hz", "kind", "event", "class", "mode", "S s/m")
-    table = _table("", *columns)
+    table = _table("U m/s", "f Hz", "kind", "event", "class", "mode", "S s/m")
     for row in rows:
         strength = "" if row.strength != row.strength else f"{row.strength:.4f}"
         cells = (row.kind, row.event, row.classification, row.mode_name, strength)
         table.add_row(f"{row.speed:.2f}", f"{row.frequency:.2f}", *cells)
     console = Console(highlight=False)
-    console.print(answer(dataset))
+    console.print(_plain(answer(dataset)))
     if rows:
         console.print(table)
     speeds = dataset["speed"].values
-    span = f"{len(speeds)} speeds from {speeds[0]:g} to {speeds[-1]:g} m/s"
-    console.print(f"\nCurves: {span}; flutter sought up to {dataset.attrs['speed_limit']:g} m/s.")
-    console.print(certificate(dataset))
+    span = f"{len(speeds)} speeds from {speeds[0]:.4g} to {speeds[-1]:.4g} m/s"
+    span = span if len(speeds) > 1 else f"at {speeds[0]:.4g} m/s"
+    console.print(f"\nCurves: {span}; flutter sought up to {dataset.attrs['speed_limit']:.4g} m/s.")
+    console.print(_plain(certificate(dataset)))
 
 
 def show_boundary(dataset: "xarray.Dataset") -> None:
     """Print the critical point of every case, the answer and the certificate."""
     from foldwing.results import flutter_rows, fold_angle_names
-    from foldwing.results.summary import answer, certificate
+    from foldwing.results.summary import answer, certificate, failed_cases
 
-    columns = ("fold, deg", "U m/s", "f Hz", "kind", "class", "mode", "further points, m/s")
-    table = _table("Critical airspeed of each case", *columns)
-    rows = flutter_rows(dataset)
+    hinges, failed = fold_angle_names(dataset), set(failed_cases(dataset))
+    brief = dataset.sizes["fold"] > MOST_ROWS
+    columns = ["U m/s", "f Hz", "kind", "class", "mode", "further points, m/s"]
+    table = _table(*["fold, deg"][: len(hinges)], *columns[: -1 if brief else None])
+    by_case: dict[int, list[FlutterRow]] = {}
+    for row in flutter_rows(dataset):
+        by_case.setdefault(row.case, []).append(row)
     for case in range(dataset.sizes["fold"]):
-        mine = [row for row in rows if row.case == case]
-        critical = next((row for row in mine if row.event != "recovery"), None)
-        folds = [float(dataset[name][case]) for name in fold_angle_names(dataset)]
-        if critical is None:
-            table.add_row(_angles(folds), "-", "", "", "", "", "")
-            continue
-        others = ", ".join(f"{row.speed:.1f} {row.event}" for row in mine if row is not critical)
-        cells = (critical.kind, critical.classification, critical.mode_name, others)
-        speed, frequency = f"{critical.speed:.2f}", f"{critical.frequency:.2f}"
-        table.add_row(_angles(folds), speed, frequency, *cells)
+        cells = ["-", "", "failed" if case in failed else "none"]
+        if case in by_case:
+            cells = _critical_cells(by_case[case])
+        folds = [_angles([float(dataset[name][case]) for name in hinges])] if hinges else []
+        table.add_row(*folds, *cells[: len(columns) - brief])
     console = Console(highlight=False)
+    console.print("Critical airspeed of each case")
     console.print(table)
-    console.print(answer(dataset))
-    console.print(certificate(dataset))
+    if brief:
+        console.print("\nFurther points of each case are in flutter_points.csv.")
+    console.print(_plain(f"\n{answer(dataset)}"))
+    console.print(_plain(certificate(dataset)))
+
+
+def _critical_cells(rows: "Sequence[FlutterRow]") -> list[str]:
+    """Return the first point of instability of a case, and the others in short."""
+    critical = next((row for row in rows if row.event != "recovery"), None)
+    others = ", ".join(f"{row.speed:.1f} {_event(row)}" for row in rows if row is not critical)
+    if critical is None:
+        return ["-", "", "none", "", "", others]
+    numbers = [f"{critical.speed:.2f}", f"{critical.frequency:.2f}"]
+    return [*numbers, critical.kind, critical.classification, critical.mode_name, others]
+
+
+def _event(row: "FlutterRow") -> str:
+    """Return what happens at a flutter point in a word or two."""
+    if row.event == "recovery":
+        return f"{row.kind} ends"
+    return row.kind if row.event == "onset" else row.event
 
 
 def name_failures(outcomes: "Sequence[Outcome]", wanted: int) -> None:
@@ -103,7 +133,8 @@ def name_failures(outcomes: "Sequence[Outcome]", wanted: int) -> None:
     for outcome in outcomes:
         if outcome.status:
             reason = outcome.message or "the count of unstable roots does not agree"
-            _say(f"{_angles(outcome.folds)} deg: {outcome.status.meaning}: {reason}")
+            where = _fold(outcome.folds) or "this wing"
+            _say(f"{where}: {outcome.status.meaning}: {reason}")
     if len(outcomes) < wanted:
         _say(f"Interrupted: {len(outcomes)} of {wanted} cases are finished and were kept.")
 
@@ -121,17 +152,24 @@ def progress(label: str, total: int) -> Iterator[Callable[[int], None]]:
 
     columns = (TextColumn(label), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     console = Console(file=sys.stderr)
-    with Progress(*columns, console=console, transient=True, disable=total < 2) as bar:
+    hidden = total < 2 or not console.is_terminal
+    with Progress(*columns, console=console, transient=True, disable=hidden) as bar:
         task = bar.add_task(label, total=total)
         yield lambda finished: bar.update(task, completed=finished)
 
 
-def _title(what: str, folds: Sequence[float]) -> str:
-    return f"{what} at fold {_angles(folds)} deg" if folds else what
+def _fold(folds: Sequence[float]) -> str:
+    """Return ``fold 30, -30 deg``; empty without hinges."""
+    return f"fold {_angles(folds)} deg" if folds else ""
 
 
 def _angles(folds: Sequence[float]) -> str:
     return ", ".join(f"{angle:g}" for angle in folds)
+
+
+def _plain(text: str) -> str:
+    """Return text whose minus signs every terminal can show."""
+    return text.replace("\N{MINUS SIGN}", "-")
 
 
 def _say(text: str) -> None:

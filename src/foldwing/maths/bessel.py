@@ -39,9 +39,10 @@ _COEFFICIENTS = _series_coefficients(30)
 def _from_bessel(p: Complex) -> tuple[Complex, Complex]:
     """Return C and C' from Bessel functions scaled by exp(p), which cancels in the ratio."""
     K0, K1 = kve(0, p), kve(1, p)
-    C = K1 / (K0 + K1)
+    total = K0 + K1
+    C = K1 / total
     # 1 - C from its own ratio keeps its digits near the origin.
-    complement = K0 / (K0 + K1)
+    complement = K0 / total
     return C, C - complement - C * complement / p
 
 
@@ -75,10 +76,13 @@ def theodorsen_with_derivative(p: ArrayLike) -> tuple[Complex, Complex]:
         minus infinity, and whoever needs T'(0) has to treat that point apart.
     """
     p = np.asarray(p, dtype=np.complex128)
+    size = np.abs(p)
+    if p.size and _ORIGIN <= size.min() and size.max() < _FAR:
+        return _from_bessel(p)
     C = np.ones(p.shape, dtype=np.complex128)
     dC = np.full(p.shape, complex(-np.inf, 0.0))
-    far = np.abs(p) >= _FAR
-    near = ~far & (np.abs(p) >= _ORIGIN)
+    far = size >= _FAR
+    near = ~far & (size >= _ORIGIN)
     if near.any():
         C[near], dC[near] = _from_bessel(p[near])
     if far.any():

@@ -63,7 +63,7 @@ def trace_origins(problem: AeroelasticProblem, roots: Roots, lowest: float) -> O
     for index in order:
         new = start.take(np.array([index]))
         if followed is not None:
-            followed = advance(problem, followed, float(roots.speed[index]), 0.25)
+            followed = advance(problem, followed, float(roots.speed[index]))
             same = _meeting(followed, new)
             if same is not None:
                 branch[branch == branch[members[same]]] = branch[index]
@@ -73,7 +73,7 @@ def trace_origins(problem: AeroelasticProblem, roots: Roots, lowest: float) -> O
         members.append(int(index))
     mode, confidence = energy_modes(problem, roots.right)
     if followed is not None:
-        followed = advance(problem, followed, lowest, 0.25)
+        followed = advance(problem, followed, lowest)
         named, sure = _named(problem, followed)
         for member, column, certain in zip(members, named, sure, strict=True):
             if certain:

@@ -65,7 +65,7 @@ class _Bordered(NamedTuple):
 
 def normalized(vectors: Complex) -> Complex:
     """Return the vectors scaled to unit 2-norm along the last axis."""
-    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
+    return np.asarray(vectors / np.sqrt((np.abs(vectors) ** 2).sum(axis=-1, keepdims=True)))
 
 
 def null_vectors(matrices: Complex) -> tuple[Complex, Complex]:
@@ -83,15 +83,14 @@ def _bordered(T: Evaluation, right: Complex, left: Complex) -> _Bordered:
     A[:, :n, n] = left.conj() * scale
     A[:, n, :n] = right.conj() * scale
     inverse = np.asarray(np.linalg.inv(A), complex)
-    x, g = inverse[:, :n, n], inverse[:, n, n]
-    y = inverse[:, n, :n]
-    g_p = -np.einsum("mi,mij,mj->m", y, T.by_p, x)
-    g_U = -np.einsum("mi,mij,mj->m", y, T.by_speed, x)
+    x, g, y = inverse[:, :n, n], inverse[:, n, n], inverse[:, n, :n]
+    slopes = np.stack([T.by_p, T.by_speed]) @ x[:, :, None]
+    g_p, g_U = -(y[:, None, :] @ slopes)[..., 0, 0]
     return _Bordered(normalized(x), normalized(y), g, g_p, g_U)
 
 
 def _residual(T: Complex, x: Complex) -> Real:
-    Tx = np.linalg.norm(np.einsum("mij,mj->mi", T, x), axis=1)
+    Tx = np.linalg.norm((T @ x[:, :, None])[..., 0], axis=1)
     size = np.maximum(np.abs(T).sum(axis=1).max(axis=1), np.finfo(float).tiny)
     return np.asarray(Tx / size)
 
@@ -100,9 +99,9 @@ def polish_roots(
     problem: AeroelasticProblem,
     p: Complex,
     speed: Real,
-    right: Complex | None = None,
-    left: Complex | None = None,
+    borders: tuple[Complex, Complex] | None = None,
     iterations: int = 12,
+    tolerance: Real | float = TOLERANCE,
 ) -> Roots:
     """Converge roots p of T(p, U) x = 0, each at its own fixed airspeed.
 
@@ -113,10 +112,12 @@ def polish_roots(
         Starting values.
     speed : array, shape (m,)
         Airspeeds in m/s.
-    right, left : array, shape (m, n), optional
-        Starting null vectors; by default those of the smallest singular value.
+    borders : pair of arrays, shape (m, n), optional
+        Starting right and left null vectors; by default those of the smallest singular value.
     iterations : int
         Most Newton steps.
+    tolerance : float or array, shape (m,)
+        Relative size of the last step.
 
     Returns
     -------
@@ -127,7 +128,7 @@ def polish_roots(
     def step(border: _Bordered, p: Complex, _: Real) -> tuple[Complex, Real]:
         return -border.value / border.by_p, np.zeros(len(p))
 
-    return _newton(problem, p, speed, (right, left), step, iterations)
+    return _newton(problem, p, speed, borders, step, (iterations, tolerance))
 
 
 def roots_at(problem: AeroelasticProblem, p: Complex, speed: Real) -> Roots:
@@ -167,23 +168,21 @@ def polish_crossings(
         return dk * shrink * ray, dU * shrink
 
     p = np.asarray(reduced_frequency) * ray
-    return _newton(problem, p, np.asarray(speed, float), (None, None), step, iterations)
+    return _newton(problem, p, np.asarray(speed, float), None, step, (iterations, TOLERANCE))
 
 
 def _newton(
     problem: AeroelasticProblem,
     p: Complex,
     speed: Real,
-    vectors: tuple[Complex | None, Complex | None],
+    borders: tuple[Complex, Complex] | None,
     step: Callable[[_Bordered, Complex, Real], tuple[Complex, Real]],
-    iterations: int,
+    limits: tuple[int, Real | float],
 ) -> Roots:
+    iterations, tolerance = limits
     p, speed = np.array(p, complex), np.array(speed, float)
     T = evaluate_with_derivatives(problem, p, speed)
-    right, left = vectors
-    if right is None or left is None:
-        right, left = null_vectors(T.value)
-    border = _bordered(T, right, left)
+    border = _bordered(T, *(null_vectors(T.value) if borders is None else borders))
     active = np.ones(len(p), bool)
     converged = np.zeros(len(p), bool)
     counts = np.zeros(len(p), int)
@@ -196,7 +195,7 @@ def _newton(
         counts += active
         T = evaluate_with_derivatives(problem, p, speed)
         border = _bordered(T, border.right, border.left)
-        small = (np.abs(dp) <= TOLERANCE * np.abs(p)) & (np.abs(dU) <= TOLERANCE * speed)
+        small = (np.abs(dp) <= tolerance * np.abs(p)) & (np.abs(dU) <= tolerance * speed)
         converged |= active & small
         active &= ~small
         if not active.any():

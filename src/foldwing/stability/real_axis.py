@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from foldwing.maths.arrays import Complex, Indices, Real
 from foldwing.stability.newton import Roots, polish_roots, roots_at
 from foldwing.stability.path import EigenvaluePath, follow_path, inverse_speeds
-from foldwing.stability.problem import AeroelasticProblem
+from foldwing.stability.problem import AeroelasticProblem, evaluate_with_derivatives
 from foldwing.stability.region import RIGHT_EDGE
 
 POINTS = 60
@@ -129,9 +129,25 @@ def _slopes(problem: AeroelasticProblem, p: Complex, speed: Real) -> Real:
     rows, columns = np.nonzero(np.isfinite(speed))
     slope = np.full(speed.shape, np.nan)
     if len(rows):
-        roots = roots_at(problem, p[rows], speed[rows, columns])
-        slope[rows, columns] = 1.0 / roots.p_by_speed.real
+        T = evaluate_with_derivatives(problem, p[rows], speed[rows, columns])
+        x, y = _real_null_vectors(T.value.real)
+        by_p, by_speed = (y @ part.real @ x for part in (T.by_p, T.by_speed))
+        slope[rows, columns] = -(by_p / by_speed)[:, 0, 0]
     return slope
+
+
+def _real_null_vectors(T: Real) -> tuple[Real, Real]:
+    """Return right (m, n, 1) and left (m, 1, n) null vectors by one step of inverse iteration.
+
+    T is singular but for round-off, which is what makes one step enough; where there is not even
+    round-off, singular vectors are taken.
+    """
+    start = np.cos(np.arange(T.shape[1]))[:, None]
+    try:
+        return np.linalg.solve(T, start), np.linalg.solve(T.mT, start).mT
+    except np.linalg.LinAlgError:
+        W, _, Vh = np.linalg.svd(T)
+        return Vh[:, -1:, :].mT, W[:, :, -1:].mT
 
 
 def _extremum(

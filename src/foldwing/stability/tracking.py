@@ -11,12 +11,15 @@ import scipy.linalg
 import scipy.optimize
 
 from foldwing.maths.arrays import Complex, Indices, Mask, Real
-from foldwing.stability.newton import Roots, polish_roots
+from foldwing.stability.newton import TOLERANCE, Roots, polish_roots
 from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.status import Status
 
 SMALLEST_STEP = 1e-5
 """Fraction of the way to the next speed below which a branch is given up."""
+
+ON_THE_WAY = 1e-4
+"""Relative size of the last Newton step at speeds that are only passed through."""
 
 LEAST_MAC = 0.8
 """Eigenvectors of consecutive steps must be at least this alike."""
@@ -29,6 +32,9 @@ SAME_ROOT = 1e-7
 
 NEAR_REAL = 0.2
 """A branch lost with |Im| below this fraction of its modulus has reached the real axis."""
+
+SMALLEST_STEP_NEAR_REAL = 0.02
+"""The same for a branch near the real axis, which it meets with ever steeper slope."""
 
 
 @dataclass(frozen=True)
@@ -162,20 +168,23 @@ def advance(
         now = state.take(active)
         last = done[active] + length >= 1.0 - 1e-12
         speed = np.where(last, target, now.speed + length * way[active])
-        new, good, easy = _step(problem, now, speed)
+        new, good, easy = _step(problem, now, speed, np.where(last, TOLERANCE, ON_THE_WAY))
         state = state.put(active[good], new.take(np.flatnonzero(good)))
         done[active[good]] = np.where(last, 1.0, done[active] + length)[good]
         size[active] = np.where(good, length * np.where(easy, 2.0, 1.0), length / 4.0)
-        lost = active[size[active] < SMALLEST_STEP]
-        state = _given_up(state, lost)
+        short = np.where(_near_real(now.eigenvalue), SMALLEST_STEP_NEAR_REAL, SMALLEST_STEP)
+        state = _given_up(state, active[~good & (size[active] < short)])
 
 
-def _step(problem: AeroelasticProblem, now: Branches, speed: Real) -> tuple[Branches, Mask, Mask]:
+def _step(
+    problem: AeroelasticProblem, now: Branches, speed: Real, tolerance: Real
+) -> tuple[Branches, Mask, Mask]:
     """Predict and correct; say which steps are good and which may be longer next time."""
     b = problem.half_chord
     dU = speed - now.speed
     predicted = now.eigenvalue + now.slope * dU + now.bend * dU**2 / 2.0
-    roots = polish_roots(problem, predicted * b / speed, speed, now.right, now.left, 6)
+    borders = (now.right, now.left)
+    roots = polish_roots(problem, predicted * b / speed, speed, borders, 6, tolerance)
     new = branches_at(problem, roots)
     mac = np.abs(np.einsum("mi,mi->m", now.right.conj(), new.right)) ** 2
     moved = np.abs(new.eigenvalue - predicted) / np.abs(new.eigenvalue)
@@ -191,10 +200,13 @@ def _given_up(state: Branches, lost: Indices) -> Branches:
     if len(lost) == 0:
         return state
     status = state.status.copy()
-    value = state.eigenvalue[lost]
-    real = np.abs(value.imag) < NEAR_REAL * np.abs(value)
+    real = _near_real(state.eigenvalue[lost])
     status[lost] = np.where(real, Status.LEFT_DOMAIN, Status.NOT_CONVERGED)
     return replace(state, status=status)
+
+
+def _near_real(eigenvalue: Complex) -> Mask:
+    return np.asarray(np.abs(eigenvalue.imag) < NEAR_REAL * np.abs(eigenvalue))
 
 
 @dataclass(frozen=True)
@@ -280,7 +292,7 @@ def _launched(problem: AeroelasticProblem, start: StillAirRoots, fastest: float)
     speed = np.full(len(start.eigenvalue), 1e-4 * fastest)
     p = start.eigenvalue * problem.half_chord / speed
     right = start.vectors
-    return branches_at(problem, polish_roots(problem, p, speed, right, right.conj()))
+    return branches_at(problem, polish_roots(problem, p, speed, (right, right.conj())))
 
 
 def _advanced_apart(problem: AeroelasticProblem, branches: Branches, speed: float) -> Branches:

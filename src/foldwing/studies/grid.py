@@ -13,12 +13,23 @@ from foldwing.model import Wing
 LEVEL = "level"
 """Fold that keeps a segment parallel to segment 1."""
 
+_FOLD_REMEDY = "Give an angle in degrees, start:stop:step such as 0:150:2.5, or level."
+
 MOST_VALUES = 100_000
 """Values of a range or cases of a grid above which a typing error is more likely than a wish."""
 
 
-def parse_range(text: str, field: str) -> tuple[float, ...]:
+def parse_range(text: str, field: str, remedy: str = "") -> tuple[float, ...]:
     """Return the values of ``"start:stop:step"``, stop included, or of a single number.
+
+    Parameters
+    ----------
+    text : str
+        As the user wrote it.
+    field : str
+        Where it stands, for messages.
+    remedy : str, optional
+        How to write it, for messages.
 
     Raises
     ------
@@ -26,7 +37,7 @@ def parse_range(text: str, field: str) -> tuple[float, ...]:
         When the text is empty, not a number, not finite, reversed, or has a step of zero.
     """
     parts = text.split(":")
-    remedy = "Give one number, or start:stop:step such as 0:150:2.5."
+    remedy = remedy or "Give one number, or start:stop:step such as 0:150:2.5."
     if len(parts) not in (1, 3):
         raise InputError(field, text, "must be a number or start:stop:step", remedy)
     try:
@@ -43,7 +54,7 @@ def _values(start: float, stop: float, step: float, *, field: str, text: str) ->
         raise InputError(field, text, "the step must not be zero", "Give a step such as 2.5.")
     count = (stop - start) / step
     if count < -1e-9:
-        remedy = f"Write {stop:g}:{start:g}:{abs(step):g}, or give the step the other sign."
+        remedy = f"Write {min(start, stop):g}:{max(start, stop):g}:{abs(step):g}."
         raise InputError(field, text, "the step must lead from start to stop", remedy)
     if count > MOST_VALUES:
         remedy = "Give a larger step."
@@ -104,11 +115,12 @@ def fold_cases(
             limit = f"this wing has the hinges 2 to {wing.count}"
             raise InputError(field, text, limit, "Hinge I joins segments I-1 and I.")
         level = text.strip().lower() == LEVEL
-        choices[hinge - 2] = (LEVEL,) if level else parse_range(text, field)
+        choices[hinge - 2] = (LEVEL,) if level else parse_range(text, field, _FOLD_REMEDY)
     total = math.prod(len(choice) for choice in choices)
     if total > MOST_VALUES:
         remedy = "Give larger steps, or sweep fewer hinges at once."
-        raise InputError("--fold", total, f"a grid may have {MOST_VALUES} cases", remedy)
+        limit = f"a grid may have at most {MOST_VALUES} cases"
+        raise InputError("--fold-of", f"{total} cases", limit, remedy)
     return [_levelled(case) for case in itertools.product(*choices)]
 
 
@@ -140,11 +152,10 @@ def parse_speeds(text: str) -> Real:
     InputError
         When a speed is negative, the range descends, or it has no speed above zero.
     """
-    speeds = parse_range(text, "--speeds")
+    remedy = "Write start:stop:step in m/s from 0 upwards, such as 0:60:1."
+    speeds = parse_range(text, "--speeds", remedy)
     if len(speeds) > 1 and speeds[1] < speeds[0]:
-        remedy = "Write the lower speed first, 0:60:1."
         raise InputError("--speeds", text, "must ascend", remedy)
     if speeds[0] < 0.0 or speeds[-1] <= 0.0:
-        remedy = "Start at 0 m/s or above and end above it, 0:60:1."
-        raise InputError("--speeds", text, "must not be negative or only 0", remedy)
+        raise InputError("--speeds", text, "must not be negative or only 0 m/s", remedy)
     return np.array(speeds)

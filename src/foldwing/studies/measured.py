@@ -1,7 +1,7 @@
 """Measured points, to lay over a picture."""
 
+import contextlib
 import csv
-import io
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -65,42 +65,50 @@ def read_measured(source: str) -> Measured:
     InputError
         When the file cannot be read or has not the right columns.
     """
-    rows = list(csv.reader(io.StringIO("\n".join(_lines(_text(source))))))
-    if len(rows) < 2:
+    lines = _lines(_text(source))
+    if len(lines) < 2:
         raise InputError("--measured", source, "must have a header and a row", REMEDY)
-    header = [name.strip() for name in rows[0]]
+    header = [name.strip() for name in lines[0][1]]
     if not any(name in header for name in ("speed", "frequency")):
         raise InputError("--measured", source, "must have a column speed or frequency", REMEDY)
+    if len(set(header)) < len(header):
+        raise InputError("--measured", source, "must not name a column twice", REMEDY)
     columns: dict[str, list[float]] = {name: [] for name in header}
-    for number, row in enumerate(rows[1:], start=2):
-        if len(row) != len(header):
-            limit = f"row {number} must have {len(header)} values"
+    for number, values in lines[1:]:
+        if len(values) != len(header):
+            limit = f"line {number} must have {len(header)} values"
             raise InputError("--measured", source, limit, REMEDY)
-        for name, text in zip(header, row, strict=True):
+        for name, text in zip(header, values, strict=True):
             columns[name].append(_number(text, name, number, source))
     return Measured({name: np.array(values) for name, values in columns.items()}, source)
 
 
-def _lines(text: str) -> list[str]:
-    return [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+def _lines(text: str) -> list[tuple[int, list[str]]]:
+    """Return number and fields of every line that is neither blank nor a comment."""
+    return [
+        (number, next(csv.reader([line])))
+        for number, line in enumerate(text.splitlines(), start=1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
 
 
 def _text(source: str) -> str:
     if source in measurement_names():
         return example_text(source)
     try:
-        return Path(source).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as problem:
+        return Path(source).read_text(encoding="utf-8-sig")
+    except (OSError, ValueError) as problem:
+        reason = getattr(problem, "strerror", None) or "not UTF-8 text"
+        limit = f"must be a CSV file that can be read ({reason})"
         known = ", ".join(measurement_names())
-        limit = f"must be a readable CSV file or one of: {known}"
-        raise InputError("--measured", source, limit, f"{problem}.") from None
+        raise InputError("--measured", source, limit, f"{REMEDY} Shipped: {known}.") from None
 
 
-def _number(text: str, name: str, row: int, source: str) -> float:
+def _number(text: str, name: str, line: int, source: str) -> float:
     if not text.strip():
         return math.nan
-    try:
-        return float(text)
-    except ValueError:
-        limit = f"row {row}, column {name}: {text!r} is not a number"
-        raise InputError("--measured", source, limit, REMEDY) from None
+    with contextlib.suppress(ValueError):
+        if math.isfinite(value := float(text)):
+            return value
+    limit = f"line {line}, column {name}: {text.strip()!r} is not a finite number"
+    raise InputError("--measured", source, limit, REMEDY)

@@ -35,11 +35,17 @@ def speed_range(model: AeroelasticWing, highest: float | None = None) -> tuple[f
     InputError
         When ``highest`` is not positive and finite.
     """
-    if highest is not None and not (math.isfinite(highest) and highest > 0.0):
-        remedy = "Give the highest airspeed of the search in m/s, such as 60."
-        raise InputError("--max-speed", highest, "must be greater than 0 m/s", remedy)
+    check_highest(highest)
     top = _automatic(model) if highest is None else highest
     return top * LOWEST_FRACTION, top
+
+
+def check_highest(highest: float | None) -> None:
+    """Raise `InputError` unless the end of the search is left open, or positive and finite."""
+    if highest is not None and not (math.isfinite(highest) and highest > 0.0):
+        remedy = "Give the highest airspeed of the search in m/s, such as 60."
+        limit = "must be finite and greater than 0 m/s"
+        raise InputError("--max-speed", highest, limit, remedy)
 
 
 def _automatic(model: AeroelasticWing) -> float:
