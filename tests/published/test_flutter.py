@@ -180,6 +180,16 @@ def test_level_tip_recovers_between_30_and_90_degrees(psi):
     assert first.classification == "hump" and len(recoveries) == 1
 
 
+def test_recovery_of_another_branch_makes_no_hump():
+    """At 31 degrees the first mode flutters at 24.9 m/s and becomes two real roots at 53.6 m/s;
+    the recovery at 78 m/s is not its own."""
+    points = solved(31.0, -31.0, 100.0)
+    first = flutter(points)[0]
+    assert [p.branch == first.branch for p in points if p.event == "recovery"] == [False]
+    assert first.classification == "coalescence"
+    assert any(p.event == "merger" and first.speed < p.speed < 60.0 for p in points)
+
+
 def test_level_tip_hump_disappears_at_90_degrees():
     """Figures 4.6 and 4.7: unstable at 85 degrees, 30.3 to 53.8 m/s; a narrower range nearer to
     90; from 90 to 105 no flutter below 70 m/s, only divergence."""

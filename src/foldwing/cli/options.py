@@ -79,6 +79,10 @@ Measured = Annotated[
         help="Measured points to lay over the picture: a CSV file or a shipped table.",
     ),
 ]
+Trace = Annotated[
+    bool,
+    typer.Option("--trace", help="Join the points into curves, followed exactly around turns."),
+]
 Jobs = Annotated[str, typer.Option("--jobs", metavar="N", help="Processes to run in parallel.")]
 Plot = Annotated[bool, typer.Option("--plot/--no-plot", help="Draw pictures and a report.")]
 Out = Annotated[

@@ -29,17 +29,21 @@ class NullSpace(NamedTuple):
     gap: float
 
 
-def null_space(constraints: Real) -> NullSpace:
+def null_space(constraints: Real, scaled: bool = True) -> NullSpace:
     """Return an orthonormal basis of the null space by rank-revealing QR.
 
     Parameters
     ----------
     constraints : array, shape (m, n)
-        Rows are scaled to unit norm first; redundant rows and zero rows are allowed.
+        Redundant rows and zero rows are allowed.
+    scaled : bool
+        Whether rows are scaled to unit norm first, so that their units do not matter.
     """
     n = constraints.shape[1]
     norms = np.linalg.norm(constraints, axis=1)
-    C = constraints[norms > 0.0] / norms[norms > 0.0, None]
+    C = constraints[norms > 0.0]
+    if scaled:
+        C = C / norms[norms > 0.0, None]
     if len(C) == 0:
         return NullSpace(np.eye(n), 0, 0.0)
     Q, R, _ = scipy.linalg.qr(C.T, mode="full", pivoting=True, check_finite=False)

@@ -10,6 +10,7 @@ import numbers
 import re
 from dataclasses import dataclass
 from functools import cache
+from importlib.resources import files
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -202,7 +203,11 @@ class Count:
 def _registry() -> "pint.UnitRegistry[float]":
     import pint
 
-    return pint.UnitRegistry(cache_folder=None)
+    # A short list of our own loads in a tenth of the time of pint's.
+    definitions = files("foldwing.model").joinpath("units.txt").read_text(encoding="utf-8")
+    registry: pint.UnitRegistry[float] = pint.UnitRegistry(None, cache_folder=None)
+    registry.load_definitions(definitions.splitlines())
+    return registry
 
 
 def _unit_factor(unit: str, si_unit: str) -> tuple[float, str]:

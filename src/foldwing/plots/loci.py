@@ -40,11 +40,11 @@ def against_speed(dataset: "xarray.Dataset") -> Picture | None:
         return None
     speed = dataset["speed"].values
     limits = _speed_range(speed)
-    rows = [row for row in flutter_rows(dataset) if limits[0] <= row.speed <= limits[1]]
+    rows = _rows_shown(dataset)
     colors = mode_colors(dataset)
     growth, frequency = _visible(dataset, "growth"), _visible(dataset, "frequency")
     growth_range = focused(growth, 3.0)
-    top = 1.05 * float(np.nanmax(frequency)) if np.isfinite(frequency).any() else 1.0
+    top = _highest_shown(frequency, rows)
     x = [row.speed for row in rows]
     upper = [
         *_unstable_above(limits, growth_range),
@@ -78,14 +78,14 @@ def root_locus(dataset: "xarray.Dataset") -> Picture | None:
         return None
     growth, frequency = _visible(dataset, "growth"), _visible(dataset, "frequency")
     x_range = focused(growth, 5.0)
-    top = 1.12 * float(np.nanmax(frequency, initial=0.0)) or 1.0
+    top = _highest_shown(frequency, _rows_shown(dataset))
     y_range = (-0.04 * top, top)
     tint = Area(
         np.array([0.0, x_range[1], x_range[1], 0.0]), np.repeat(y_range, 2), "unstable", 0.1
     )
     items: list[Item] = [tint, Rule(0.0, "x", "ink", width=1.2)]
     items += _paths(dataset, growth, frequency)
-    items += _path_ends(dataset, (growth, frequency), x_range)
+    items += _path_ends(dataset, (growth, frequency), x_range, top)
     items += _crossing_marks(dataset)
     items += [
         Note(x_range[1], top, "unstable", "unstable", "right", "top", -4, -4, bold=True),
@@ -111,6 +111,27 @@ def _visible(dataset: "xarray.Dataset", name: str) -> Array:
 
 def _speed_range(speed: Array) -> Range:
     return (float(speed[0]), float(speed[-1])) if len(speed) > 1 else padded(speed)
+
+
+def _rows_shown(dataset: "xarray.Dataset") -> list[FlutterRow]:
+    """Return the flutter points within the airspeeds of the curves."""
+    low, high = _speed_range(dataset["speed"].values)
+    return [row for row in flutter_rows(dataset) if low <= row.speed <= high]
+
+
+def _highest_shown(frequency: Array, rows: list[FlutterRow]) -> float:
+    """Return the frequency up to which branches are shown: those that flutter, and at least four.
+
+    The highest modes, many times faster, would press the others flat.
+    """
+    finite = frequency[np.isfinite(frequency)]
+    if not finite.size:
+        return 1.0
+    rows_with_values = np.flatnonzero(np.isfinite(frequency).any(axis=1))
+    first = np.sort(frequency[rows_with_values[0]])
+    fourth = float(first[min(3, int(np.isfinite(first).sum()) - 1)])
+    flutter = max((row.frequency for row in rows), default=0.0)
+    return min(1.05 * float(finite.max()), max(1.25 * fourth, 1.6 * flutter)) or 1.0
 
 
 def _names(dataset: "xarray.Dataset") -> list[str]:
@@ -176,7 +197,9 @@ def _paths(dataset: "xarray.Dataset", growth: Array, frequency: Array) -> list[I
     ]
 
 
-def _path_ends(dataset: "xarray.Dataset", paths: tuple[Array, Array], x_range: Range) -> list[Item]:
+def _path_ends(
+    dataset: "xarray.Dataset", paths: tuple[Array, Array], x_range: Range, highest: float
+) -> list[Item]:
     """Mark the first and the last point of each path and name it where it comes into view."""
     growth, frequency = paths
     notes: list[Note] = []
@@ -184,6 +207,7 @@ def _path_ends(dataset: "xarray.Dataset", paths: tuple[Array, Array], x_range: R
     for branch, name in enumerate(_names(dataset)):
         finite = np.flatnonzero(np.isfinite(growth[:, branch]))
         inside = (growth[:, branch] >= x_range[0]) & (growth[:, branch] <= x_range[1])
+        inside &= frequency[:, branch] <= highest
         shown = np.flatnonzero(inside)
         if not shown.size:
             continue
@@ -196,7 +220,7 @@ def _path_ends(dataset: "xarray.Dataset", paths: tuple[Array, Array], x_range: R
     return [
         Marks(x1, y1, "circle-open", "ink", "lowest airspeed", 5),
         Marks(x2, y2, "triangle", "ink", "highest airspeed", 6.5),
-        *_apart(notes, _PANEL_SHARE * float(np.nanmax(frequency))),
+        *_apart(notes, _PANEL_SHARE * highest),
     ]
 
 
@@ -206,6 +230,6 @@ def _apart(notes: list[Note], gap: float) -> list[Note]:
 
 
 def _crossing_marks(dataset: "xarray.Dataset") -> list[Marks]:
-    rows = [row for row in flutter_rows(dataset) if row.threshold == 0 and row.event != "merger"]
+    rows = [row for row in _rows_shown(dataset) if row.threshold == 0 and row.event != "merger"]
     zero = [0.0] * len(rows)
     return event_marks(rows, zero, [row.frequency for row in rows], mode_colors(dataset))

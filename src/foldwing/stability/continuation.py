@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import brentq
 
 from foldwing.maths.arrays import Complex, Real
 from foldwing.stability.newton import null_vectors, polish_crossings
@@ -29,7 +30,7 @@ TOLERANCE = 1e-7
 SMALLEST_STEP = 1e-4
 """Fraction of the first step below which the curve is given up."""
 
-LONGEST_STEP = 4.0
+LONGEST_STEP = 2.0
 """Most arc length of a step, in first steps."""
 
 LEAST_COSINE, EASY_COSINE = 0.9, 0.998
@@ -240,24 +241,21 @@ def _curve(equation: _Equation, points: Real, tangents: Real, end: str) -> Bound
         reduced_frequency=np.exp(points[:, 0]),
         speed=np.exp(points[:, 1]),
         strength=np.array([equation.strength(v) for v in points]),
-        turning=tuple(_turning_point(equation, points[i], tangents[i]) for i in turns),
+        turning=tuple(_turning_point(equation, points[i : i + 2], tangents[i]) for i in turns),
         end=end,
     )
 
 
-def _turning_point(equation: _Equation, v: Real, tangent: Real) -> float:
-    """Return the parameter at which the curve turns back just beyond the point ``v``."""
-    length, low, high = 1.0, 0.0, 1.0
+def _turning_point(equation: _Equation, ends: Real, tangent: Real) -> float:
+    """Return the parameter at which the curve turns back between two of its points."""
+    start, length = ends[0], float((ends[1] - ends[0]) @ tangent)
 
-    def state(length: float) -> tuple[Real, float]:
-        new = equation.corrected(v + length * tangent, tangent)
-        if new is None:
-            return v, float(tangent[2])
-        return new, float(equation.tangent(new, tangent)[2])
+    def at(length: float) -> Real:
+        new = equation.corrected(start + length * tangent, tangent)
+        return start if new is None else new
 
-    while state(high)[1] * tangent[2] > 0.0 and high < 2.0 * LONGEST_STEP:
-        low, high = high, 2.0 * high
-    for _ in range(30):
-        length = (low + high) / 2.0
-        low, high = (length, high) if state(length)[1] * tangent[2] > 0.0 else (low, length)
-    return float(state(length)[0][2] * equation.scale)
+    def direction(length: float) -> float:
+        return float(equation.tangent(at(length), tangent)[2])
+
+    top = brentq(direction, 0.0, length, xtol=1e-6 * length)
+    return float(at(top)[2] * equation.scale)

@@ -42,8 +42,9 @@ SAME_POINT = 1e-7
 LEAST_FREQUENCY = 1e-6
 """Reduced frequency below which a crossing is divergence, found at p = 0 instead."""
 
-BESIDE_ZERO = 1e-5
-"""Real p at which the direction of a divergence root is taken."""
+BESIDE_ZERO = LEAST_FREQUENCY
+"""Real p at which the direction of a divergence root is taken: it may change its sign at smaller p,
+where an oscillating root crosses whose frequency is below the least."""
 
 
 @dataclass(frozen=True)

@@ -74,6 +74,35 @@ class Assembly:
             K[pair, pair] += hinge_stiffness(hinge, self._slopes[joint])
         return np.asarray(K)
 
+    @cached_property
+    def strains(self) -> Real:
+        """Rows that vanish on motions without strain energy, each of unit norm.
+
+        The stiffness of every segment and the slopes of sprung hinges apart: together, the stiffer
+        would hide the softer.
+        """
+        rows = [scipy.linalg.block_diag(*(c.stiffness for c in self.components))]
+        for joint, hinge in enumerate(self.wing.hinges):
+            if hinge.stiffness > 0.0:
+                row = np.zeros((1, self.size))
+                row[0, self._pair(joint)] = self._slopes[joint]
+                rows.append(row)
+        S = np.vstack(rows)
+        norms = np.linalg.norm(S, axis=1, keepdims=True)
+        return np.asarray(S[norms[:, 0] > 0.0] / norms[norms[:, 0] > 0.0])
+
+    def stored_energy(self, modes: Real) -> Real:
+        """Return q^T K q of modes (size, n), which is omega^2 for unit modal mass, shape (n,).
+
+        The energy of a stiff spring is taken from its own rotation, which loses no digits.
+        """
+        energy = np.zeros(modes.shape[1])
+        for component, q in zip(self.components, self.by_segment(modes), strict=True):
+            energy += ((component.stiffness @ q) * q).sum(axis=0)
+        for joint, hinge in enumerate(self.wing.hinges):
+            energy += hinge.stiffness * (self._slopes[joint] @ modes[self._pair(joint)]) ** 2
+        return energy
+
     def _pair(self, joint: int) -> slice:
         return slice(self.slices[joint].start, self.slices[joint + 1].stop)
 

@@ -17,7 +17,7 @@ from foldwing.maths.arrays import Real
 from foldwing.structure.assembly import Assembly
 from foldwing.structure.modes import StructuralModes, modal_assurance, natural_modes
 
-CLEAR_MATCH = 0.7
+CLEAR_MATCH = 0.9
 """MAC above which a match is beyond doubt."""
 
 SMALLEST_FOLD_STEP = 0.01 * DEGREE

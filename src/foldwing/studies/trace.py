@@ -1,0 +1,195 @@
+"""The flutter boundary as continuous curves, followed through the fold angle around its turns."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from foldwing.aeroelastic.system import AeroelasticSystem
+from foldwing.aeroelastic.wing import AeroelasticWing
+from foldwing.errors import InputError
+from foldwing.maths.arrays import Real
+from foldwing.results.schema import build_dataset
+from foldwing.stability.continuation import BoundaryCurve, Limits, follow_boundary
+from foldwing.stability.status import FlutterPoint
+from foldwing.studies.boundary import Boundary
+from foldwing.studies.case import Case
+from foldwing.studies.grid import radians, swept_hinge
+
+ON_CURVE = 0.04
+"""Relative difference in speed and frequency below which a point lies on a curve."""
+
+
+@dataclass(frozen=True)
+class TracedCurve:
+    """One branch of the flutter boundary.
+
+    Attributes
+    ----------
+    fold : array, shape (m,)
+        Angle of the swept hinge in degrees along the curve, not always ascending.
+    speed, frequency, strength : array, shape (m,)
+        In m/s, Hz and s/m.
+    turning : tuple of float
+        Angles at which the curve turns back: there an onset and a recovery meet.
+    """
+
+    fold: Real
+    speed: Real
+    frequency: Real
+    strength: Real
+    turning: tuple[float, ...]
+
+    def passes(self, fold: float, point: FlutterPoint) -> bool:
+        """Return whether the curve passes through a flutter point at a fold angle."""
+        logs = np.log(np.column_stack([self.speed, self.frequency]))
+        target = np.log([point.speed, point.frequency])
+        before, after = self.fold[:-1], self.fold[1:]
+        around = np.flatnonzero((before - fold) * (after - fold) <= 0.0)
+        width = np.where(after == before, 1.0, after - before)[around]
+        share = ((fold - before[around]) / width)[:, None]
+        there = logs[around] + share * (logs[around + 1] - logs[around])
+        return bool((np.abs(there - target) < ON_CURVE).all(axis=1).any())
+
+
+def trace_boundary(
+    model: AeroelasticWing,
+    cases: Sequence[Case],
+    hinge: int,
+    progress: Callable[[int], None] = lambda finished: None,
+) -> list[TracedCurve]:
+    """Follow every flutter point of a sweep of one fold angle, each curve once.
+
+    Parameters
+    ----------
+    model : AeroelasticWing
+    cases : sequence of Case
+        Of ascending angle of the swept hinge; the other angles may depend on it linearly.
+    hinge : int
+        The swept hinge, from 2.
+    progress : callable
+        Called with the number of flutter points that lie on a curve already.
+    """
+    family = _family(model, cases, hinge)
+    angles = [case.folds[hinge - 2] for case in cases]
+    limits = Limits((min(angles), max(angles)), cases[0].analysis.speed_range)
+    step = float(np.median(np.diff(angles)))
+    left = [
+        (angle, case, point)
+        for angle, case in zip(angles, cases, strict=True)
+        for point in case.analysis.points
+        if point.kind == "flutter"
+    ]
+    total, curves = len(left), []
+    while left:
+        angle, case, point = left.pop(len(left) // 2)
+        curve = _both_ways(family, angle, (case, point), step, limits)
+        curves.append(curve)
+        left = [entry for entry in left if not curve.passes(entry[0], entry[2])]
+        progress(total - len(left))
+    return curves
+
+
+def _family(
+    model: AeroelasticWing, cases: Sequence[Case], hinge: int
+) -> Callable[[float], AeroelasticSystem]:
+    first, last = np.array(cases[0].folds), np.array(cases[-1].folds)
+    swept = hinge - 2
+
+    @lru_cache(maxsize=8)
+    def system(angle: float) -> AeroelasticSystem:
+        share = (angle - first[swept]) / (last[swept] - first[swept])
+        return model.system(model.modes(radians(first + share * (last - first))))
+
+    return system
+
+
+def _both_ways(
+    family: Callable[[float], AeroelasticSystem],
+    angle: float,
+    start: tuple[Case, FlutterPoint],
+    step: float,
+    limits: Limits,
+) -> TracedCurve:
+    case, point = start
+    at = (angle, point.p.imag, point.speed)
+    threshold = case.analysis.threshold
+    ahead = follow_boundary(family, at, step, limits, threshold)
+    samples = _samples(ahead, limits)
+    turning = ahead.turning
+    if ahead.end != "closed":
+        behind = follow_boundary(family, at, -step, limits, threshold)
+        samples = np.hstack([_samples(behind, limits)[:, :0:-1], samples])
+        turning = (*behind.turning, *turning)
+    fold, k, speed, strength = samples
+    frequency = k * speed / (2.0 * np.pi * case.system.half_chord)
+    return TracedCurve(fold, speed, frequency, strength, turning)
+
+
+def _samples(curve: BoundaryCurve, limits: Limits) -> Real:
+    """Return fold, k, U and strength along a curve, its last step cut off at the limits."""
+    rows = np.array([curve.parameter, curve.reduced_frequency, curve.speed, curve.strength])
+    before, after = rows[:, -2], rows[:, -1]
+    share = 1.0
+    for row, (low, high) in ((0, limits.parameter), (2, limits.speed)):
+        edge = np.clip(after[row], low, high)
+        if edge != after[row]:
+            share = min(share, float((edge - before[row]) / (after[row] - before[row])))
+    rows[:, -1] = before + share * (after - before)
+    return rows
+
+
+def with_curves(
+    boundary: Boundary,
+    model: AeroelasticWing,
+    progress: Callable[[int], None] = lambda finished: None,
+) -> Boundary:
+    """Return a boundary with its flutter points joined into curves.
+
+    Parameters
+    ----------
+    boundary : Boundary
+        Over the angle of one hinge, as `check_traceable` asks for.
+    model : AeroelasticWing
+    progress : callable
+        Called with the number of flutter points that lie on a curve already.
+    """
+    cases = [outcome.case for outcome in boundary.outcomes if outcome.case is not None]
+    hinge = swept_hinge([case.folds for case in cases])
+    if hinge is None:
+        return boundary
+    cases = sorted(cases, key=lambda case: case.folds[hinge - 2])
+    curves = trace_boundary(model, cases, hinge, progress)
+    if not curves:
+        return boundary
+    turning = sorted(angle for curve in curves for angle in curve.turning)
+    attrs = boundary.dataset.attrs | {"turning": ", ".join(f"{angle:.2f}" for angle in turning)}
+    drawn = build_dataset(*_curve_variables(curves), attrs)
+    return replace(boundary, dataset=boundary.dataset.merge(drawn).assign_attrs(attrs))
+
+
+def check_traceable(cases: Sequence[tuple[float, ...]]) -> None:
+    """Raise `InputError` unless the cases lie on one line of fold angles."""
+    hinge = swept_hinge(cases)
+    angles = np.array(cases)
+    if hinge is not None:
+        line = np.polyfit(angles[:, hinge - 2], angles, 1)
+        straight = np.abs(np.outer(angles[:, hinge - 2], line[0]) + line[1] - angles).max() < 1e-6
+        if straight and len(set(angles[:, hinge - 2])) == len(cases):
+            return
+    remedy = "Give one range, such as --fold2 0:150:2.5, and numbers or level for the others."
+    raise InputError("--trace", "a grid", "curves follow a single swept fold angle", remedy)
+
+
+def _curve_variables(curves: Sequence[TracedCurve]) -> tuple[dict[str, Any], dict[str, Any]]:
+    dims = ("curve_sample",)
+    sizes = [len(curve.fold) for curve in curves]
+    variables = {
+        f"curve_{name}": (dims, np.concatenate([getattr(curve, name) for curve in curves]))
+        for name in ("fold", "speed", "frequency", "strength")
+    }
+    variables["curve_id"] = (dims, np.repeat(np.arange(len(curves)), sizes))
+    variables["curve_kind"] = (dims, np.full(sum(sizes), "flutter"))
+    return variables, {"curve_sample": (dims, np.arange(sum(sizes)))}
