@@ -309,10 +309,9 @@ EXPECTED = {
         "growth-and-frequency",
         "root-locus",
         "determinant",
-        "natural-frequencies",
         "flutter-motion",
     },
-    "quiet": {"growth-and-frequency", "root-locus", "determinant", "natural-frequencies"},
+    "quiet": {"growth-and-frequency", "root-locus", "determinant"},
     "boundary": {"boundary", "natural-frequencies"},
     "all-failed": {"boundary"},
 }

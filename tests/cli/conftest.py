@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import foldwing
 import pytest
+
+import foldwing
 from foldwing.cli.main import run
 
 START = (

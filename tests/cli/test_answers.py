@@ -67,7 +67,7 @@ def test_modes_json_of_a_sweep(cli):
     assert [case["fold"] for case in result["cases"]] == [[0.0, 0.0], [30.0, -30.0], [60.0, -60.0]]
     one = cli("modes", "three-segment", "--fold", "60,-60", "--json").json
     swept = sorted(result["cases"][2]["natural_frequencies_hz"])
-    assert swept == pytest.approx(one["natural_frequencies_hz"], rel=1e-9)
+    assert swept[:8] == pytest.approx(one["natural_frequencies_hz"][:8], rel=1e-9)
 
 
 def test_flutter_json(cli, empty_folder):
@@ -207,6 +207,10 @@ def test_options_change_the_answer(cli, options):
 def test_range_of_airspeeds_does_not_change_the_points_within_it(cli):
     speeds = [critical(cli, *more) for more in [(), ("--speeds", "0:40:4"), ("--max-speed", 30)]]
     assert speeds == pytest.approx(speeds[:1] * 3, rel=1e-9)
+
+
+def test_far_end_of_the_search_hides_nothing(cli):
+    assert critical(cli, "--max-speed", 1e5) == pytest.approx(critical(cli), rel=1e-9)
 
 
 def test_search_ends_where_it_is_told(cli):

@@ -84,7 +84,7 @@ CASES = [
     (("flutter", THREE, "--aero", "latice"), "--aero", "latice", "quasi-steady", "-h"),
     (("modes", THREE, "--basis", "foo"), "--basis", "foo", "free-free", "-h"),
     (("flutter", THREE, "--frob"), "--frob", "-h"),
-    (("flutter",), "Missing argument", "model", "-h"),
+    (("flutter",), "Missing argument", "-h"),
     (("flutter", THREE, "more"), "more", "-h"),
     (("frob",), "frob", "-h"),
     # measured points

@@ -5,6 +5,7 @@ import time
 
 import numpy as np
 import pytest
+
 from foldwing.results import read_dataset
 from foldwing.studies import boundary
 
@@ -44,9 +45,6 @@ def test_other_cases_stand_when_one_fails(cli, empty_folder, fail_at, more):
     assert failed["valid_from"] is None
     assert "Singular matrix" in failed["message"]
     dataset = read_dataset(empty_folder / "result" / "dataset.nc")
-    assert np.isnan(dataset["natural_frequency"].values).all(axis=1).tolist() == [
-        False, True, False, False,
-    ]  # fmt: skip
     meanings = dataset["case_status"].attrs["flag_meanings"].split()
     values = dataset["case_status"].attrs["flag_values"].tolist()
     status = [meanings[values.index(value)] for value in dataset["case_status"].values]
@@ -71,6 +69,18 @@ def test_all_cases_fail(cli, empty_folder, fail_at, more):
     assert answer.status == 1
     assert answer.err.count(": failed: LinAlgError") == 4
     assert read_dataset(empty_folder / "result" / "dataset.nc").sizes["flutter_point"] == 0
+
+
+def test_failure_of_the_natural_modes_leaves_the_rest(cli, empty_folder, monkeypatch):
+    def follow(*arguments):
+        raise np.linalg.LinAlgError("no convergence")
+
+    monkeypatch.setattr(boundary, "follow_modes", follow)
+    answer = cli(*SWEEP, "--out", "result")
+    assert answer.status == 0
+    dataset = read_dataset(empty_folder / "result" / "dataset.nc")
+    assert dataset.sizes["flutter_point"] >= 4
+    assert dataset["certified"].values.all()
 
 
 def test_failure_without_hinges_is_named_too(cli, monkeypatch):
@@ -150,12 +160,15 @@ def test_interrupted_before_anything_is_finished(cli, monkeypatch, empty_folder,
 
 def test_ctrl_c(start, empty_folder):
     many = ("boundary", "three-segment", "--fold2", "0:150:0.01", "--fold3", "level")
-    process = start(*many, "--max-speed", 40, "--no-plot", "--out", "result")
-    time.sleep(4.0)
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=30)
-    assert process.returncode == 1
-    assert "Traceback" not in out + err
+    for seconds in (3.0, 10.0, 30.0):  # a busy machine may not have finished a case by then
+        process = start(*many, "--max-speed", 40, "--no-plot", "--out", "result")
+        time.sleep(seconds)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=30)
+        assert process.returncode == 1
+        assert "Traceback" not in out + err
+        if "nothing was written" not in err:
+            break
     dataset = read_dataset(empty_folder / "result" / "dataset.nc")
     finished = dataset.sizes["fold"]
     assert 0 < finished < 15001

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from foldwing.errors import InputError
 from foldwing.model import read_model
 from foldwing.studies.grid import fold_cases, parse_range, parse_speeds, swept_hinge
-from hypothesis import given
-from hypothesis import strategies as st
 
 numbers = st.integers(-2000, 2000).map(lambda number: number / 8)
 steps = st.integers(1, 400).map(lambda number: number / 8)

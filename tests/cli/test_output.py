@@ -6,6 +6,7 @@ import os
 import re
 
 import pytest
+
 from foldwing.cli.commands import Request
 from foldwing.model import example_text
 from foldwing.results import read_dataset

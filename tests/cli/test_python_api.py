@@ -1,9 +1,10 @@
 """The functions behind the commands do not swallow what they do not know."""
 
 import pytest
+
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
-from foldwing.model import Hinge, Segment, Wing, read_model
+from foldwing.model import read_model
 from foldwing.studies.boundary import boundary_study
 from foldwing.studies.flutter import flutter_study
 from foldwing.studies.modes import modes_study
@@ -24,7 +25,6 @@ def test_records_reject_unknown_keywords(wing):
         (wing.air, "densty", "density"),
         (wing.analysis, "dampin", "damping"),
     ):
-        assert isinstance(part, Wing | Segment | Hinge) or hasattr(part, "model_fields")
         with pytest.raises(ValueError, match=f"Did you mean {near}"):
             type(part)(**dict(part), **{word: 1.0})
 

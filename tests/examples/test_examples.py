@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+
 from foldwing.cli.main import run
 from foldwing.model import example_names, example_text, measurement_names, read_model
 from foldwing.studies.measured import read_measured
@@ -141,7 +142,7 @@ def test_friction_hinge_wings(name):
     thickness = float(given(name, r"([\d.]+) mm \* 0\.98")) * 0.98e-3
     youngs = 3.0e9 * (1 + float(given(name, r"Young's modulus by (\d+) %")) / 100)
     shear = float(given(name, r"from ([\d.]+) GPa, which")) * 0.9e9
-    mass = (float(given(name, r"has ([\d.]+) g for a hinge")) + 5.2) / 2 * 1e-3
+    mass = (float(given(name, r"gives ([\d.]+) g for a hinge")) + 5.2) / 2 * 1e-3
     arm = float(given(name, r"gyration of ([\d.]+) mm")) * 1e-3
     for section in wing.segments:
         cube = section.chord * thickness**3

@@ -1,12 +1,15 @@
-"""Shipped wings as stability problems, and a plain count of their unstable roots."""
+"""Wings as stability problems, problems with exact roots, a plain count of unstable roots."""
 
-from functools import cache
+from dataclasses import dataclass
+from functools import cache, cached_property
 
 import numpy as np
+import scipy.optimize
+from numpy.polynomial import polynomial
 
 from foldwing.aeroelastic.wing import AeroelasticWing
-from foldwing.model import read_model
-from foldwing.stability.problem import Pencil
+from foldwing.model import Hinge, read_model
+from foldwing.stability.problem import Pencil, StillAir, evaluate
 
 
 @cache
@@ -25,6 +28,92 @@ def example_modes(name, *folds):
 def example(name, *folds):
     """Aeroelastic system of a shipped model at fold angles in degrees."""
     return example_wing(name).system(example_modes(name, *folds))
+
+
+@cache
+def with_other_hinges(name, hinges, *folds):
+    """Aeroelastic system of a shipped model with other hinge stiffnesses, None for a free hinge."""
+    wing = example_wing(name).wing
+    new = tuple(
+        old if k == "same" else Hinge(kind="free") if k is None else Hinge(stiffness=k)
+        for old, k in zip(wing.hinges, hinges, strict=True)
+    )
+    model = AeroelasticWing(wing.model_copy(update={"hinges": new}))
+    return model.system(model.modes(tuple(np.radians(folds))))
+
+
+def determinant(problem, p, speed):
+    """Return det T at one pair (p, U)."""
+    return complex(np.linalg.det(evaluate(problem, np.array([p], complex), np.array([speed])))[0])
+
+
+def exact_root(problem, p, speed):
+    """Return the root of det T near p by the secant method, which uses no derivative of T."""
+    size = determinant(problem, p * 1.1, speed)
+    return scipy.optimize.newton(
+        lambda z: determinant(problem, z, speed) / size, p, x1=p * (1 + 1e-4), tol=1e-14
+    )
+
+
+@dataclass(frozen=True)
+class Polynomials:
+    """1 + U g_j p + U^2 q_j(p) = 0 for each j, in turned coordinates that hide which is which.
+
+    The roots at every airspeed are those of scalar polynomials in p.
+
+    Attributes
+    ----------
+    quadratic : tuple of tuple of float
+        Coefficients of each q_j, of 1 first.
+    linear : tuple of float
+        g_j; empty when there is no term in U.
+    """
+
+    quadratic: tuple
+    linear: tuple = ()
+    half_chord: float = 1.0
+
+    @property
+    def size(self):
+        """One coordinate for each polynomial."""
+        return len(self.quadratic)
+
+    @cached_property
+    def _turn(self):
+        return np.linalg.qr(np.random.default_rng(3).standard_normal((self.size, self.size)))[0]
+
+    def _mixed(self, diagonals):
+        return np.einsum("ji,mj,jk->mik", self._turn, diagonals, self._turn).astype(complex)
+
+    def pencil(self, p):
+        """Return T0, T1 and T2."""
+        return self.pencil_with_derivative(p)[0]
+
+    def pencil_with_derivative(self, p):
+        """Return the pencil and its derivative with respect to p."""
+        T2 = [polynomial.polyval(p, q) for q in self.quadratic]
+        dT2 = [polynomial.polyval(p, polynomial.polyder(q)) for q in self.quadratic]
+        T1 = dT1 = None
+        if self.linear:
+            T1, dT1 = (self._mixed(np.outer(z, self.linear)) for z in (p, np.ones_like(p)))
+        one = np.eye(self.size, dtype=complex)
+        value = Pencil(one, T1, self._mixed(np.stack(T2, axis=1)))
+        return value, Pencil(0 * one, dT1, self._mixed(np.stack(dT2, axis=1)))
+
+    def still_air(self):
+        """Return the inertia p^2 and the unit stiffness."""
+        mass = self._mixed(np.array([[q[2] for q in self.quadratic]]))[0].real
+        every = np.arange(self.size)
+        return StillAir(mass, 0 * mass, np.eye(self.size), every, apparent_mass=True)
+
+    def roots(self, speed):
+        """Return every exact root p at one airspeed."""
+        found = []
+        for j, q in enumerate(self.quadratic):
+            whole = speed**2 * np.array(q, float)
+            whole[:2] += 1.0, speed * self.linear[j] if self.linear else 0.0
+            found.append(polynomial.polyroots(whole))
+        return np.concatenate(found)
 
 
 class UnstableRoots:
@@ -89,3 +178,8 @@ def unstable_by(points, speed, at_first):
     sign = {"onset": 1, "recovery": -1, "merger": 0}
     below = [point for point in points if point.speed < speed]
     return at_first + sum(size[point.kind] * sign[point.event] for point in below)
+
+
+def of_kind(analysis, kind):
+    """Return the flutter points of one kind."""
+    return [point for point in analysis.points if point.kind == kind]

@@ -284,7 +284,8 @@ def _write(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> No
 
     with result_folder(folder, output.force) as staging:
         write_dataset(dataset, staging / DATASET_FILE)
-        write_frequencies_csv(dataset, staging / "natural_frequencies.csv")
+        if "natural_frequency" in dataset:
+            write_frequencies_csv(dataset, staging / "natural_frequencies.csv")
         if "case" in dataset:
             write_csv(dataset, staging / "flutter_points.csv")
         if output.plot:

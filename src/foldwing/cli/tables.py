@@ -55,10 +55,8 @@ def show_modes(answers: Sequence[dict[str, Any]]) -> None:
         for answer in answers:
             frequencies = answer["natural_frequencies_hz"][:MOST_MODES]
             table.add_row(_angles(answer["fold"]), *(f"{f:.4g}" for f in frequencies))
-        part = f", the lowest {MOST_MODES} of {len(names)}" if len(names) > MOST_MODES else ""
-        console.print(
-            f"Natural frequencies in Hz{part}; each mode keeps its name of the first case"
-        )
+        part = f", {MOST_MODES} of {len(names)}" if len(names) > MOST_MODES else ""
+        console.print(f"Natural frequencies in Hz{part}, named as in the first case")
     console.print(table)
 
 

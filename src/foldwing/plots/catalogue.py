@@ -1,6 +1,6 @@
 """Which pictures a dataset has."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from foldwing.plots.boundary import boundary, boundary_map
@@ -25,10 +25,16 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 
+LEFT_OUT: "Mapping[str, tuple[Callable[[xarray.Dataset], Picture | None], ...]]" = {
+    "flutter": (natural_frequencies,)
+}
+"""By kind of dataset, pictures that would say what others say already."""
+
 
 def pictures(dataset: "xarray.Dataset") -> list[Picture]:
     """Return the pictures that can be drawn from a dataset."""
-    drawn = (make(dataset) for make in PICTURES)
+    left_out = LEFT_OUT.get(dataset.attrs["kind"], ())
+    drawn = (make(dataset) for make in PICTURES if make not in left_out)
     return [picture for picture in drawn if picture is not None]
 
 

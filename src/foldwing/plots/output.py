@@ -1,6 +1,11 @@
 """Figures from a dataset, and files from figures."""
 
-from collections.abc import Mapping, Sequence
+import contextlib
+import multiprocessing
+import os
+import sys
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -71,14 +76,41 @@ def write_pictures(
     formats : sequence of str
         ``png``, ``svg`` or ``pdf``.
     """
-    names = []
-    for theme in themes:
-        suffix = "" if theme == "light" else f"-{theme}"
-        for name, figure in static_figures(dataset, theme).items():
-            for extension in formats:
-                names.append(f"{name}{suffix}.{extension}")
-                figure.savefig(folder / names[-1], dpi=_DOTS_PER_INCH, **_QUICK.get(extension, {}))
-    return names
+    figures = {
+        f"{name}{'' if theme == 'light' else f'-{theme}'}": figure
+        for theme in themes
+        for name, figure in static_figures(dataset, theme).items()
+    }
+    first, rest = list(formats[:1]), list(formats[1:])
+    with _beside(lambda: _save(figures, folder, rest)):
+        _save(figures, folder, first)
+    return [f"{name}.{extension}" for name in figures for extension in formats]
+
+
+def _save(figures: "Mapping[str, Figure]", folder: Path, formats: Sequence[str]) -> None:
+    for extension in formats:
+        for name, figure in figures.items():
+            settings = _QUICK.get(extension, {})
+            figure.savefig(folder / f"{name}.{extension}", dpi=_DOTS_PER_INCH, **settings)
+
+
+@contextlib.contextmanager
+def _beside(work: Callable[[], None]) -> Iterator[None]:
+    """Do work in a second process while the block runs; after it where that is not possible.
+
+    Drawing twice takes as long as everything else of a small study. A copy of this process needs no
+    start and no imports, but only Linux makes one safely.
+    """
+    if sys.platform != "linux" or (os.cpu_count() or 1) < 2 or threading.active_count() > 1:
+        yield
+        work()
+        return
+    process = multiprocessing.get_context("fork").Process(target=work)
+    process.start()
+    yield
+    process.join()
+    if process.exitcode:
+        work()
 
 
 def write_report(dataset: "xarray.Dataset", path: Path) -> None:

@@ -84,7 +84,8 @@ class Certificate:
     Attributes
     ----------
     speeds : array, shape (u,)
-        The lowest airspeed and one between each two crossings, where the roots were counted.
+        The lowest airspeed, one between each two crossings, and the highest, where the roots were
+        counted. Without the highest, a crossing lost near the end of the range would go unnoticed.
     counted : array of int, shape (u,)
         -1 where the count did not settle.
     expected : array of int, shape (u,)
@@ -312,7 +313,7 @@ def certify(
     crossings: Crossings,
     speed_range: tuple[float, float],
 ) -> Certificate:
-    """Count the unstable roots in every interval between crossings by the argument principle.
+    """Count unstable roots between all crossings and at both ends by the argument principle.
 
     Parameters
     ----------
@@ -328,26 +329,34 @@ def certify(
     slow, fast = speed_range
     edges = np.concatenate([[slow], crossings.speed, [fast]])
     gaps = edges[1:] > edges[:-1] * (1.0 + SAME_POINT)
-    between = np.concatenate([[slow], np.sqrt(edges[1:] * edges[:-1])[gaps]])
-    jumps = np.concatenate([[0], np.concatenate([[0], np.cumsum(crossings.jump)])[gaps]])
-    counted = count_unstable(problem, path, region, between)
-    return Certificate(between, counted, counted[0] + jumps)
+    total = np.concatenate([[0], np.cumsum(crossings.jump)])
+    middle = np.sqrt(edges[1:] * edges[:-1])
+    speeds = np.concatenate([[slow], middle[gaps], edges[-1:][gaps[-1:]]])
+    jumps = np.concatenate([[0], total[gaps], total[-1:][gaps[-1:]]])
+    counted = count_unstable(problem, path, region, speeds)
+    return Certificate(speeds, counted, counted[0] + jumps)
 
 
 def count_unstable(
     problem: AeroelasticProblem, path: EigenvaluePath, region: Region, speeds: Real
 ) -> Indices:
     """Return the number of roots in the region at each airspeed; -1 where it did not settle."""
+    count = np.full(len(speeds), -1)
+    pending = np.arange(len(speeds))
     for _ in range(REFINEMENTS):
-        turns, doubtful = winding(path, speeds)
-        steps = np.flatnonzero(doubtful.any(axis=0))
-        if len(steps) == 0:
+        turns, doubtful = winding(path, speeds[pending])
+        beyond_doubt = ~doubtful.any(axis=1)
+        count[pending[beyond_doubt]] = _whole(-turns[beyond_doubt] / np.pi)
+        pending = pending[~beyond_doubt]
+        if len(pending) == 0:
             break
+        steps = np.flatnonzero(doubtful.any(axis=0))
         middle = (path.parameter[steps] + path.parameter[steps + 1]) / 2.0
         path = refined(problem, path, region.point, middle)
-    else:
-        turns, doubtful = winding(path, speeds)
-    count = -turns / np.pi
-    whole = np.rint(count)
-    settled = ~doubtful.any(axis=1) & (np.abs(count - whole) < 0.05)
-    return np.where(settled, whole, -1).astype(int)
+    return count
+
+
+def _whole(count: Real) -> Indices:
+    """Return counts as integers; -1 for those that are not near to one."""
+    nearest = np.rint(count)
+    return np.where(np.abs(count - nearest) < 0.05, nearest, -1).astype(int)

@@ -28,7 +28,7 @@ METHODS = {
 }
 """One line per aerodynamic model on how the numbers are computed."""
 
-CONTOUR_POINTS = 141
+CONTOUR_POINTS = 101
 """Points along each axis of the determinant contours."""
 
 

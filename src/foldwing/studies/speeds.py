@@ -11,7 +11,7 @@ from foldwing.stability.flutter import FlutterAnalysis
 from foldwing.stability.sweep import divergence_speeds
 
 LOWEST_FRACTION = 1.0 / 150.0
-"""Lowest airspeed of the search as a fraction of the highest."""
+"""Lowest airspeed of the search as a fraction of its end, at most of the end that is automatic."""
 
 TIMES_DIVERGENCE = 3.0
 """The search ends at this multiple of the divergence speed of the flat wing."""
@@ -36,8 +36,9 @@ def speed_range(model: AeroelasticWing, highest: float | None = None) -> tuple[f
         When ``highest`` is not positive and finite.
     """
     check_highest(highest)
-    top = _automatic(model) if highest is None else highest
-    return top * LOWEST_FRACTION, top
+    automatic = _automatic(model)
+    top = automatic if highest is None else highest
+    return min(top, automatic) * LOWEST_FRACTION, top
 
 
 def check_highest(highest: float | None) -> None:

@@ -6,6 +6,7 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.aeroelastic.wing import AeroelasticWing
@@ -18,8 +19,11 @@ from foldwing.studies.boundary import Boundary
 from foldwing.studies.case import Case
 from foldwing.studies.grid import radians, swept_hinge
 
-ON_CURVE = 0.04
-"""Relative difference in speed and frequency below which a point lies on a curve."""
+ON_CURVE = 0.03
+"""Distance from a curve, as relative speed and frequency, below which a point lies on it."""
+
+SPLINE_POINTS = 8
+"""Points of the spline for each sample of a curve."""
 
 
 @dataclass(frozen=True)
@@ -42,16 +46,24 @@ class TracedCurve:
     strength: Real
     turning: tuple[float, ...]
 
-    def passes(self, fold: float, point: FlutterPoint) -> bool:
-        """Return whether the curve passes through a flutter point at a fold angle."""
-        logs = np.log(np.column_stack([self.speed, self.frequency]))
-        target = np.log([point.speed, point.frequency])
-        before, after = self.fold[:-1], self.fold[1:]
-        around = np.flatnonzero((before - fold) * (after - fold) <= 0.0)
-        width = np.where(after == before, 1.0, after - before)[around]
-        share = ((fold - before[around]) / width)[:, None]
-        there = logs[around] + share * (logs[around + 1] - logs[around])
-        return bool((np.abs(there - target) < ON_CURVE).all(axis=1).any())
+    def passes(self, fold: float, point: FlutterPoint, step: float) -> bool:
+        """Return whether the curve passes a flutter point at a fold angle.
+
+        Its samples are joined by a spline; ``step`` in degrees counts as much as a factor e of
+        airspeed or frequency.
+        """
+        samples = np.column_stack([self.fold / step, np.log(self.speed), np.log(self.frequency)])
+        target = np.array([fold / step, np.log(point.speed), np.log(point.frequency)])
+        if len(samples) < 2:
+            return bool(np.linalg.norm(samples[0] - target) < ON_CURVE)
+        length = np.concatenate([[0.0], np.linalg.norm(np.diff(samples, axis=0), axis=1).cumsum()])
+        fine = np.linspace(0.0, length[-1], SPLINE_POINTS * len(length))
+        start = CubicSpline(length, samples)(fine)
+        chord = np.diff(start, axis=0)
+        start = start[:-1]
+        along = ((target - start) * chord).sum(axis=1) / (chord**2).sum(axis=1)
+        nearest = start + np.clip(along, 0.0, 1.0)[:, None] * chord
+        return bool(np.linalg.norm(nearest - target, axis=1).min() < ON_CURVE)
 
 
 def trace_boundary(
@@ -87,7 +99,7 @@ def trace_boundary(
         angle, case, point = left.pop(len(left) // 2)
         curve = _both_ways(family, angle, (case, point), step, limits)
         curves.append(curve)
-        left = [entry for entry in left if not curve.passes(entry[0], entry[2])]
+        left = [entry for entry in left if not curve.passes(entry[0], entry[2], step)]
         progress(total - len(left))
     return curves
 
@@ -131,6 +143,8 @@ def _both_ways(
 def _samples(curve: BoundaryCurve, limits: Limits) -> Real:
     """Return fold, k, U and strength along a curve, its last step cut off at the limits."""
     rows = np.array([curve.parameter, curve.reduced_frequency, curve.speed, curve.strength])
+    if rows.shape[1] < 2:
+        return rows
     before, after = rows[:, -2], rows[:, -1]
     share = 1.0
     for row, (low, high) in ((0, limits.parameter), (2, limits.speed)):
