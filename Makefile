@@ -22,7 +22,7 @@ help:
 
 demo: venv
 	$(BIN)/foldwing boundary three-segment --fold2 0:150:2.5 --fold3 level \
-	    --measured level-tip-wind-tunnel
+	    --measured level-tip-wind-tunnel --trace
 
 test: venv
 	$(BIN)/python -m pytest -q -n auto --maxprocesses 8 $(PYTEST_ARGS)

@@ -1,4 +1,4 @@
-"""The documentation runs: every block of Python, every model, every command, every link.
+"""The documentation runs: Python, models, commands and links; its tables are complete.
 
 A block of text that follows a block of Python is its output, word for word.
 """
@@ -7,13 +7,14 @@ import contextlib
 import io
 import re
 import shlex
-import sys
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 
 import pytest
+
 from foldwing.cli.main import run
-from foldwing.model import example_text, parse_model
+from foldwing.model import parse_model
 from foldwing.model.quantities import Quantity
 from foldwing.model.record import Record
 from foldwing.model.schema import HingeTable, ModelFile, SegmentTable, WingTable
@@ -31,30 +32,33 @@ REST += '[material.sheet]\nyoungs_modulus = "3 GPa"\npoissons_ratio = 0.4\ndensi
 
 @dataclass(frozen=True)
 class Block:
-    """A fenced block, and the output that the page gives for it."""
+    """A fenced block, the line it starts at, and the output that the page gives for it."""
 
-    page: Path
     line: int
     language: str
     text: str
     output: str | None
 
 
-def blocks(*languages):
-    """Every block of the pages in one of the languages, as parameters."""
+def blocks(page):
+    """Return the fenced blocks of a page in order."""
+    text = page.read_text(encoding="utf-8")
+    matches = list(FENCE.finditer(text))
     result = []
-    for page in PAGES:
-        text = page.read_text(encoding="utf-8")
-        matches = list(FENCE.finditer(text))
-        for match, following in zip(matches, [*matches[1:], None], strict=False):
-            if match[1] not in languages:
-                continue
-            between = following and text[match.end() : following.start()].strip()
-            output = following[2] if following and following[1] == "text" and not between else None
-            line = text.count("\n", 0, match.start()) + 2
-            block = Block(page, line, match[1], match[2], output)
-            result.append(pytest.param(block, id=f"{page.stem}-{line}"))
+    for match, following in zip_longest(matches, matches[1:]):
+        adjacent = following is not None and not text[match.end() : following.start()].strip()
+        output = following[2] if adjacent and following[1] == "text" else None
+        line = text.count("\n", 0, match.start()) + 2
+        result.append(Block(line, match[1], match[2], output))
     return result
+
+
+def models():
+    """Every model of the pages, as parameters."""
+    for page in PAGES:
+        for block in blocks(page):
+            if block.language == "toml":
+                yield pytest.param(block.text, id=f"{page.stem}-{block.line}")
 
 
 @pytest.fixture(autouse=True)
@@ -62,33 +66,43 @@ def in_empty_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize("block", blocks("python"))
-def test_python_runs_and_prints_what_the_page_says(block):
-    code = compile("\n" * (block.line - 1) + block.text, str(block.page), "exec")
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_page_runs_from_top_to_bottom(page, capsys):
+    """Commands and Python in one folder; what a block prints is what the page says. Pictures are
+    left out, and the commands of the README: both have tests of their own."""
+    for block in blocks(page):
+        if block.language == "sh" and page in DOCS:
+            run_commands(block)
+        elif block.language == "python":
+            printed = run_python(page, block)
+            if block.output is not None:
+                assert printed.strip() == block.output.strip(), f"{page.name}:{block.line}"
+    assert "Error" not in capsys.readouterr().err
+
+
+def run_commands(block):
+    """Run the lines of a block that start with foldwing."""
+    for line in block.text.splitlines():
+        if line.startswith("foldwing "):
+            words = shlex.split(line.split(">")[0], comments=True)[1:]
+            draws = words[0] in ("modes", "flutter", "boundary") and "--no-plot" not in words
+            assert run([*words, *(["--no-plot"] if draws else [])]) == 0, line
+
+
+def run_python(page, block):
+    """Run a block by itself and return what it prints."""
+    code = compile("\n" * (block.line - 1) + block.text, str(page), "exec")
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
         exec(code, {"__name__": "__main__"})
-    if block.output is not None:
-        assert printed.getvalue().strip() == block.output.strip()
+    return printed.getvalue()
 
 
-@pytest.mark.parametrize("block", blocks("toml"))
-def test_models_are_accepted(block):
-    whole = "[[wing.segment]]" in block.text
-    assert parse_model(block.text if whole else block.text + REST).count >= 1
-
-
-@pytest.mark.parametrize("page", DOCS, ids=lambda page: page.stem)
-def test_commands_run(page, capsys):
-    """Every line that starts with foldwing; pictures are left out, they have tests of their own."""
-    text = page.read_text(encoding="utf-8")
-    lines = [line for match in FENCE.finditer(text) if match[1] == "sh" for line in
-             match[2].splitlines() if line.startswith("foldwing ")]
-    for line in lines:
-        words = shlex.split(line.split(">")[0])[1:]
-        draws = words[0] in ("modes", "flutter", "boundary") and "--no-plot" not in words
-        assert run([*words, *(["--no-plot"] if draws else [])]) == 0, line
-    assert "Error" not in capsys.readouterr().err
+@pytest.mark.parametrize("text", models())
+def test_models_are_accepted(text):
+    """A table shown by itself is completed to a whole model."""
+    whole = "[[wing.segment]]" in text
+    assert parse_model(text if whole else text + REST).count >= 1
 
 
 # --------------------------------------------------------------------------- links between pages

@@ -111,6 +111,7 @@ def nearest_misses(loci):
     damping = -loci.eigenvalue.real / np.abs(loci.eigenvalue)
     with np.errstate(invalid="ignore"):
         dip = (damping[1:-1] < damping[:-2]) & (damping[1:-1] < damping[2:]) & (damping[1:-1] > 0)
+        dip[np.any(np.abs(damping[1:-1]) < 1e-9, axis=1)] = False  # at points no count is defined
     rows, columns = np.nonzero(dip)
     order = np.argsort(damping[rows + 1, columns])
     return loci.speed[rows[order] + 1].tolist()[: COUNTS - 1]

@@ -6,6 +6,7 @@ from functools import cached_property
 from foldwing.aerodynamics.port import AerodynamicModel
 from foldwing.aerodynamics.strip import StripForces, strip_forces, strip_model
 from foldwing.aeroelastic.system import AeroelasticSystem
+from foldwing.errors import InputError
 from foldwing.maths.quadrature import gauss_rule
 from foldwing.model import Wing
 from foldwing.structure.assembly import Assembly, assemble
@@ -24,10 +25,22 @@ class AeroelasticWing:
     wing : Wing
     aerodynamics : str
         One of ``AERODYNAMIC_MODELS``.
+
+    Raises
+    ------
+    InputError
+        When there is no such aerodynamic model.
     """
 
     wing: Wing
     aerodynamics: str = "strip"
+
+    def __post_init__(self) -> None:
+        """Refuse unknown aerodynamics."""
+        if self.aerodynamics not in AERODYNAMIC_MODELS:
+            limit = f"must be one of: {', '.join(AERODYNAMIC_MODELS)}"
+            remedy = f"The default is {AERODYNAMIC_MODELS[0]}."
+            raise InputError("aerodynamics", self.aerodynamics, limit, remedy)
 
     @cached_property
     def assembly(self) -> Assembly:

@@ -119,6 +119,7 @@ def boundary(
     damping: options.Damping = None,
     damping_threshold: options.Threshold = None,
     measured: options.Measured = None,
+    trace: options.Trace = False,
     jobs: options.Jobs = "1",
     plot: options.Plot = True,
     out: options.Out = None,
@@ -138,6 +139,7 @@ def boundary(
         damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
         max_speed=options.number("--max-speed", max_speed, "60"),
         measured=measured,
+        trace=trace,
         jobs=options.whole_number("--jobs", jobs),
     )
     run_boundary(request, Output(plot, out, force, json))

@@ -25,6 +25,9 @@ from foldwing.model import (
 if TYPE_CHECKING:
     import xarray
 
+    from foldwing.aeroelastic.wing import AeroelasticWing
+    from foldwing.studies.boundary import Boundary
+
 FAILED = 1
 
 
@@ -42,6 +45,7 @@ class Request:
     max_speed: float | None = None
     speeds: str | None = None
     measured: str | None = None
+    trace: bool = False
     jobs: int = 1
 
     @property
@@ -217,12 +221,16 @@ def run_boundary(request: Request, output: Output) -> None:
     from foldwing.studies.answers import boundary_answer
     from foldwing.studies.boundary import boundary_study
     from foldwing.studies.speeds import check_highest
+    from foldwing.studies.trace import check_traceable
 
     check_highest(request.max_speed)
+    if request.trace:
+        check_traceable(cases)
     folder = output.folder("boundary", request.model)
+    model = AeroelasticWing(wing, request.aero)
     with _computing(), tables.progress("Fold angles", len(cases)) as advance:
         result = boundary_study(
-            AeroelasticWing(wing, request.aero),
+            model,
             cases,
             highest=request.max_speed,
             jobs=request.jobs,
@@ -230,14 +238,29 @@ def run_boundary(request: Request, output: Output) -> None:
             source=Source(text, request.options),
             measured=measured,
         )
+    if request.trace and not result.interrupted:
+        result = _with_curves(result, model)
     if output.json:
-        _print_json(boundary_answer(result.outcomes, result.wanted))
+        _print_json(boundary_answer(result))
     else:
         tables.show_boundary(result.dataset)
     _write(result.dataset, folder, output)
     tables.name_failures(result.outcomes, result.wanted)
     if result.interrupted or any(outcome.case is None for outcome in result.outcomes):
         raise typer.Exit(FAILED)
+
+
+def _with_curves(result: "Boundary", model: "AeroelasticWing") -> "Boundary":
+    """Join the points of a boundary into curves; an interruption leaves them as they are."""
+    from foldwing.studies.trace import with_curves
+
+    total = result.dataset.sizes["flutter_point"]
+    try:
+        with _computing(), tables.progress("Curves", total) as advance:
+            return with_curves(result, model, advance)
+    except KeyboardInterrupt:
+        print("Interrupted: the points are kept without curves.", file=sys.stderr)
+        return result
 
 
 def _measured(request: Request, cases: list[tuple[float, ...]]) -> Any:

@@ -49,11 +49,17 @@ MaxSpeed = Annotated[
 ]
 Aero = Annotated[
     Literal["strip", "quasi-steady"],
-    typer.Option("--aero", help="Aerodynamics: Theodorsen's strip theory or quasi-steady."),
+    typer.Option(
+        "--aero",
+        metavar="NAME",
+        help="strip (Theodorsen's theory) or quasi-steady (for comparison).",
+    ),
 ]
 Basis = Annotated[
     Literal["free-free", "converged"] | None,
-    typer.Option("--basis", help="Component modes, instead of the model's."),
+    typer.Option(
+        "--basis", metavar="NAME", help="free-free or converged component modes, not the model's."
+    ),
 ]
 Damping = Annotated[
     str | None,

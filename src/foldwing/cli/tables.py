@@ -106,6 +106,8 @@ def show_boundary(dataset: "xarray.Dataset") -> None:
     if brief:
         console.print("\nFurther points of each case are in flutter_points.csv.")
     console.print(_plain(f"\n{answer(dataset)}"))
+    if dataset.attrs.get("turning"):
+        console.print(f"The boundary turns back at {dataset.attrs['turning']} deg.")
     console.print(_plain(certificate(dataset)))
 
 

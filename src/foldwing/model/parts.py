@@ -191,7 +191,8 @@ class Analysis(Record):
     system_modes : int
         Modes of the joined wing that are kept.
     basis : str
-        "free-free": the modes above alone; "converged": with hinge modes added.
+        "free-free": the natural modes of each uniform segment; "converged": as many polynomials,
+        which converge much faster at the hinges.
     damping : float
         Structural damping ratio of every system mode.
     damping_threshold : float

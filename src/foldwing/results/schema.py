@@ -111,6 +111,7 @@ _CASES = (
     _row("certified", _FOLD, "", "all unstable eigenvalues were found at every airspeed", "truth"),
     _row("case_status", _FOLD, "1", "how the computation of the case ended", "status"),
     _row("valid_from", _FOLD, "m/s", "lowest airspeed for which the result holds"),
+    _row("unstable_from_start", _FOLD, "1", "unstable roots at the lowest airspeed", "integer"),
     _row("message", _FOLD, "", "message of a failed case", "text"),
 )
 

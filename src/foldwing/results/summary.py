@@ -30,15 +30,12 @@ def certificate(dataset: "xarray.Dataset") -> str:
     failed, doubtful = failed_cases(dataset), uncertified_cases(dataset)
     total = dataset.sizes["fold"]
     good = total - len(doubtful) - len(failed)
-    share = "This case is" if total == good == 1 else f"{good} of {total} cases are"
-    text = (
-        f"{share} certified: an independent count (the argument principle) finds as many unstable "
-        "eigenvalues as are listed. Nothing is claimed about how many stable ones there are."
-    )
-    parts = [text] if good else []
+    share = "Certified" if total == good == 1 else f"{good} of {total} cases certified"
+    text = f"{share}: the unstable roots listed are all there are, by an independent count"
+    parts = [f"{text}{_validity(dataset)}."] if good else []
     parts += [f"Not certified: {_case_list(dataset, doubtful)}."] if doubtful else []
     parts += [f"Failed: {_case_list(dataset, failed)}."] if failed else []
-    return " ".join([*parts, *_validity(dataset)])
+    return " ".join(parts)
 
 
 def failed_cases(dataset: "xarray.Dataset") -> list[int]:
@@ -59,8 +56,8 @@ def uncertified_cases(dataset: "xarray.Dataset") -> list[int]:
 
 
 def critical_row(rows: Sequence[FlutterRow]) -> FlutterRow | None:
-    """Return the onset at the lowest airspeed, flutter or divergence."""
-    onsets = [row for row in rows if row.event == "onset" and math.isfinite(row.speed)]
+    """Return the onset or merger at the lowest airspeed."""
+    onsets = [row for row in rows if row.event != "recovery" and math.isfinite(row.speed)]
     return min(onsets, key=lambda row: row.speed, default=None)
 
 
@@ -94,10 +91,24 @@ def _flutter_answer(dataset: "xarray.Dataset") -> str:
         for kind in ("flutter", "divergence")
     }
     parts = [_onset(row, rows) for row in first.values() if row is not None]
+    already = _unstable_from_start(dataset)
     if parts:
         text = "; ".join(parts)
-        return f"{text[0].upper()}{text[1:]}."
-    return _nothing_found(dataset)
+        return f"{already}{text[0].upper()}{text[1:]}."
+    return already or _nothing_found(dataset)
+
+
+def _unstable_from_start(dataset: "xarray.Dataset") -> str:
+    """Return a sentence on roots beyond the boundary at the lowest airspeed already, or nothing."""
+    if "unstable_from_start" not in dataset:
+        return ""
+    count = int(dataset["unstable_from_start"][0])
+    if count <= 0:
+        return ""
+    lowest = float(dataset["valid_from"][0])
+    beyond = "is beyond the boundary" if count == 1 else "are beyond the boundary"
+    roots = "root" if count == 1 else "roots"
+    return f"{count} {roots} {beyond} from the lowest airspeed, {lowest:.3g} m/s, on. "
 
 
 def _boundary_answer(dataset: "xarray.Dataset") -> str:
@@ -150,12 +161,13 @@ def _limit(dataset: "xarray.Dataset") -> str:
     return ""
 
 
-def _validity(dataset: "xarray.Dataset") -> list[str]:
+def _validity(dataset: "xarray.Dataset") -> str:
+    """Return the airspeeds for which the result holds."""
     if "valid_from" not in dataset:
-        return []
+        return ""
     lowest = dataset["valid_from"].values
     lowest = lowest[np.isfinite(lowest)]
-    return [f"The result holds from {lowest.max():.3g} m/s on."] if lowest.size else []
+    return f", from {lowest.max():.3g} m/s on" if lowest.size else ""
 
 
 def _case_list(dataset: "xarray.Dataset", cases: Sequence[int], most: int = 12) -> str:

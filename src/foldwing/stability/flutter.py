@@ -44,8 +44,13 @@ class FlutterAnalysis:
         return self.certificate.certified
 
     @property
+    def unstable_from_start(self) -> int:
+        """Number of roots beyond the boundary at the lowest airspeed; -1 when it is not known."""
+        return int(self.certificate.counted[0])
+
+    @property
     def critical(self) -> FlutterPoint | None:
-        """The lowest onset or merger; None when the whole range is stable."""
+        """The lowest onset or merger; None when nothing becomes unstable in the range."""
         return next((point for point in self.points if point.event in CRITICAL_EVENTS), None)
 
 

@@ -16,6 +16,9 @@ from foldwing.stability.tracking import Branches, Loci, branches_at, record, tra
 BESIDE = 1e-3
 """Relative change of p and U at which a pair just born is looked for."""
 
+MARGINAL = 1e-6
+"""Distance from the stability boundary in p below which a root is on it."""
+
 SAME_EIGENVALUE = 1e-6
 """Relative difference below which a root lies on a branch."""
 
@@ -137,13 +140,22 @@ def _real_columns(
 
 
 def _certified(problem: AeroelasticProblem, speeds: Real, values: Complex, sweep: Sweep) -> Mask:
-    """Compare the unstable roots listed with those counted; rest is stable by itself."""
+    """Compare the unstable roots listed with those counted; rest is stable by itself.
+
+    At the very speed of a crossing its root is neither stable nor unstable: it is left out of the
+    list, and the count is the smaller one of both sides.
+    """
+    moving = np.flatnonzero(speeds > 0.0)
+    U, roots = speeds[moving], values[moving]
     with np.errstate(invalid="ignore"):
-        beyond = values.real + sweep.region.threshold * np.abs(values.imag) > 0.0
-    listed = np.where(values.imag == 0.0, 1, 2) * beyond
-    expected = listed.sum(axis=1)
-    counted = np.zeros(len(speeds), int)
-    moving = speeds > 0.0
-    counted[moving] = count_unstable(problem, sweep.path, sweep.region, speeds[moving])
-    counted[~moving] = expected[~moving]
-    return np.asarray(counted == expected)
+        beyond = roots.real + sweep.region.threshold * np.abs(roots.imag)
+        marginal = np.abs(beyond) * problem.half_chord < MARGINAL * U[:, None]
+        unstable = (beyond > 0.0) & ~marginal
+    listed = (np.where(roots.imag == 0.0, 1, 2) * unstable).sum(axis=1)
+    beside = BESIDE * marginal.any(axis=1)
+    counted = count_unstable(
+        problem, sweep.path, sweep.region, np.concatenate([U * (1 - beside), U * (1 + beside)])
+    )
+    result = np.ones(len(speeds), bool)
+    result[moving] = listed == counted.reshape(2, -1).min(axis=0)
+    return result

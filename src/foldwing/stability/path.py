@@ -171,12 +171,13 @@ def winding(path: EigenvaluePath, speeds: Real) -> tuple[Real, Mask]:
     """
     V = speeds[:, None, None] ** path.power
     factors = 1.0 - V * path.inverse
-    angle = np.angle(factors[:, 1:] / factors[:, :-1])
     step = _logarithmic_steps(path)
     start = np.log(path.inverse[:-1] + TINY) + np.log(V)
-    turn = np.angle((start + step) / start)
-    near = _distance_from_zero(start, step) < 2.0 * bend(path)
-    doubtful = (near & (np.abs(turn) > CERTAIN_TURN)).any(axis=2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        angle = np.angle(factors[:, 1:] / factors[:, :-1])
+        turn = np.angle((start + step) / start)
+    near = _distance_from_zero(start, step) <= 2.0 * bend(path)
+    doubtful = (near & ~(np.abs(turn) <= CERTAIN_TURN)).any(axis=2)
     angle += 2.0 * np.pi * np.rint((turn - angle) / (2.0 * np.pi))
     constant = np.angle(path.constant[1:] / path.constant[:-1])
     doubtful |= np.abs(constant) > CERTAIN_TURN

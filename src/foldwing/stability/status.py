@@ -13,7 +13,7 @@ class Status(IntEnum):
     NOT_CONVERGED = 1
     """Newton's method did not reach its tolerance: try smaller steps in airspeed."""
     LEFT_DOMAIN = 2
-    """The root reached the branch cut of the aerodynamics (an overdamped motion): no oscillating
+    """The root reached the real axis (overdamped, or merged into two real roots): no oscillating
     root is left on this branch."""
     COLLAPSED = 3
     """Two branches met on one root and could not be told apart: try smaller steps in airspeed."""
@@ -40,7 +40,7 @@ class Spectrum:
     vectors : array of complex, shape (n, m)
         Right eigenvectors, unit 2-norm.
     residuals : array, shape (m,)
-        2-norm of T x over the 1-norm of T, dimensionless.
+        Dimensionless; of T x with the scale that the solver states.
     status : tuple of Status, length m
     iterations : tuple of int, length m
     certified : bool
@@ -65,7 +65,7 @@ class FlutterPoint:
     Attributes
     ----------
     kind : str
-        ``flutter`` (Im p > 0) or ``divergence`` (p = 0; also a ``merger``).
+        ``flutter`` (Im p > 0) or ``divergence`` (p = 0, or p > 0 for a ``merger``).
     event : str
         ``onset``, ``recovery`` or ``merger`` (an unstable complex pair becomes real).
     speed : float
@@ -87,10 +87,10 @@ class FlutterPoint:
         ``hump`` when the same branch recovers within the range, ``coalescence`` otherwise, empty
         for recoveries, divergence and mergers.
     mode : int
-        Index of the still-air mode that the root starts from; -1 when it is not known.
+        Index of the still-air mode that the root starts from, or of the mode with the largest share
+        of kinetic energy where the root does not lead to one (divergence, mergers).
     mode_confidence : float
-        1 when the root was followed down to low speed, below 1 when the mode is the one with the
-        largest share of kinetic energy.
+        1 when the root was followed down to low speed; else that share, below 1.
     """
 
     kind: str

@@ -9,7 +9,7 @@ import numpy as np
 from foldwing.results.flutter_table import FlutterRow
 from foldwing.stability.status import Status
 from foldwing.structure.modes import StructuralModes
-from foldwing.studies.boundary import Outcome
+from foldwing.studies.boundary import Boundary, Outcome
 from foldwing.studies.case import Case
 
 Answer = dict[str, Any]
@@ -35,16 +35,22 @@ def flutter_answer(case: Case) -> Answer:
         "critical": None if index is None else _point(rows[index]),
         "certified": case.analysis.certified,
         "valid_from": case.analysis.speed_range[0],
-        "uncertified_modes": [],
+        "uncertified_modes": [],  # the sweep of strip theory reaches every mode
         "status": case.status.meaning,
     }
 
 
-def boundary_answer(outcomes: Sequence[Outcome], wanted: int) -> Answer:
-    """Return one answer per case; a failed case has no points and says why."""
-    answer: Answer = {"cases": [_case(outcome) for outcome in outcomes]}
-    if len(outcomes) < wanted:
-        answer["interrupted"] = f"{len(outcomes)} of {wanted} cases finished"
+def boundary_answer(boundary: Boundary) -> Answer:
+    """Return one answer per case; a failed case has no points and says why.
+
+    Curves add the fold angles at which they turn back.
+    """
+    attrs = boundary.dataset.attrs
+    answer: Answer = {"cases": [_case(outcome) for outcome in boundary.outcomes]}
+    if "interrupted" in attrs:
+        answer["interrupted"] = attrs["interrupted"]
+    if "turning" in attrs:
+        answer["turning_folds"] = [float(angle) for angle in attrs["turning"].split(", ") if angle]
     return answer
 
 

@@ -177,7 +177,7 @@ def _dataset(
     ]
     folds = [outcome.folds for outcome in outcomes]
     variables = (
-        table_variables(rows) | _frequencies(model, folds) | _verdicts(outcomes) | overlay[0]
+        table_variables(rows) | _frequencies(model, outcomes) | _verdicts(outcomes) | overlay[0]
     )
     coords = fold_coordinates(folds) | overlay[1]
     coords["flutter_point"] = (("flutter_point",), np.arange(len(rows)))
@@ -187,22 +187,31 @@ def _dataset(
     return build_dataset(variables, coords, attrs)
 
 
-def _frequencies(model: AeroelasticWing, cases: Sequence[tuple[float, ...]]) -> Variables:
-    """Return the natural frequencies of the finished cases, followed from one to the next."""
-    try:
-        followed = follow_modes(model.assembly, [radians(case) for case in cases])
-    except NUMERICAL_FAILURES:
+def _frequencies(model: AeroelasticWing, outcomes: Sequence[Outcome]) -> Variables:
+    """Return the natural frequencies, followed from case to case; nan where a case failed."""
+    solved = [index for index, outcome in enumerate(outcomes) if outcome.case is not None]
+    if not solved:
         return {}
-    return mode_variables(followed)
+    angles = [radians(outcomes[index].folds) for index in solved]
+    found = mode_variables(follow_modes(model.assembly, angles))
+    spread = {}
+    for name, (dims, values) in found.items():
+        missing = "" if values.dtype.kind == "U" else np.nan
+        every = np.full((len(outcomes), values.shape[1]), missing, values.dtype)
+        every[solved] = values
+        spread[name] = (dims, every)
+    return spread
 
 
 def _verdicts(outcomes: Sequence[Outcome]) -> Variables:
     fold = ("fold",)
     certified = [o.case is not None and o.case.analysis.certified for o in outcomes]
     lowest = [np.nan if o.case is None else o.case.analysis.speed_range[0] for o in outcomes]
+    already = [-1 if o.case is None else o.case.analysis.unstable_from_start for o in outcomes]
     return {
         "certified": (fold, np.array(certified)),
         "case_status": (fold, np.array([int(o.status) for o in outcomes])),
         "valid_from": (fold, np.array(lowest)),
+        "unstable_from_start": (fold, np.array(already)),
         "message": (fold, np.array([o.message for o in outcomes], dtype=np.str_)),
     }

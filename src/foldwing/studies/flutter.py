@@ -137,8 +137,8 @@ def _branch_names(loci: RootLoci, modes: tuple[str, ...]) -> list[str]:
 def _shape_variables(case: Case, grid: SurfaceGrid) -> Variables:
     """Return the motion at each flutter point: largest displacement 1 m, its phase zero."""
     shapes = np.einsum("pan,fn->fpa", grid.displacement(case.modes), case.motions())
-    flat = shapes.reshape(len(shapes), -1)
-    if len(flat):
+    if len(shapes):
+        flat = shapes.reshape(len(shapes), -1)
         largest = flat[np.arange(len(flat)), np.abs(flat).argmax(axis=1)]
         shapes = shapes / largest[:, None, None]
     return {"flutter_shape": (("flutter_point", "point", "axis"), shapes)}
@@ -151,6 +151,10 @@ def case_variables(cases: list[Case]) -> Variables:
         "certified": (fold, np.array([case.analysis.certified for case in cases])),
         "case_status": (fold, np.array([int(case.status) for case in cases])),
         "valid_from": (fold, np.array([case.analysis.speed_range[0] for case in cases])),
+        "unstable_from_start": (
+            fold,
+            np.array([case.analysis.unstable_from_start for case in cases]),
+        ),
     }
 
 

@@ -16,6 +16,9 @@ LOWEST_FRACTION = 1.0 / 150.0
 TIMES_DIVERGENCE = 3.0
 """The search ends at this multiple of the divergence speed of the flat wing."""
 
+LEAST_SPEED, MOST_SPEED = 1e-3, 1e5
+"""Airspeeds in m/s beyond which an end of the search is no airspeed of a wing."""
+
 SLOW_MODES = 0.02
 """Without divergence it ends where the lowest torsion mode has this reduced frequency."""
 
@@ -33,7 +36,7 @@ def speed_range(model: AeroelasticWing, highest: float | None = None) -> tuple[f
     Raises
     ------
     InputError
-        When ``highest`` is not positive and finite.
+        When ``highest`` is no airspeed.
     """
     check_highest(highest)
     automatic = _automatic(model)
@@ -42,10 +45,10 @@ def speed_range(model: AeroelasticWing, highest: float | None = None) -> tuple[f
 
 
 def check_highest(highest: float | None) -> None:
-    """Raise `InputError` unless the end of the search is left open, or positive and finite."""
-    if highest is not None and not (math.isfinite(highest) and highest > 0.0):
+    """Raise `InputError` unless the end of the search is left open or is an airspeed."""
+    if highest is not None and not LEAST_SPEED <= highest <= MOST_SPEED:
         remedy = "Give the highest airspeed of the search in m/s, such as 60."
-        limit = "must be finite and greater than 0 m/s"
+        limit = f"must be {LEAST_SPEED:g} to {MOST_SPEED:g} m/s"
         raise InputError("--max-speed", highest, limit, remedy)
 
 
