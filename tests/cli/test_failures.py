@@ -58,7 +58,7 @@ def test_failed_case_is_named_in_the_table(cli, fail_at):
     answer = cli(*SWEEP, "--no-plot")
     assert answer.status == 1
     assert ["30,", "-30", "-", "failed"] in [line.split() for line in answer.out.splitlines()]
-    assert "3 of 4 cases are certified" in answer.out.replace("\n", " ")
+    assert "3 of 4 cases certified" in answer.out.replace("\n", " ")
     assert "fold 30, -30 deg: failed: ZeroDivisionError: division by zero" in answer.err
 
 
@@ -81,6 +81,7 @@ def test_failure_of_the_natural_modes_leaves_the_rest(cli, empty_folder, monkeyp
     dataset = read_dataset(empty_folder / "result" / "dataset.nc")
     assert dataset.sizes["flutter_point"] >= 4
     assert dataset["certified"].values.all()
+    assert (dataset["mode_confidence"].values == 0.0).all()
 
 
 def test_failure_without_hinges_is_named_too(cli, monkeypatch):

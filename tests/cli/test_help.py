@@ -18,7 +18,7 @@ OPTIONS = {
     "schema": set(),
     "modes": OF_A_MODEL | {"--measured"},
     "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds"},
-    "boundary": OF_A_MODEL | OF_A_SEARCH | {"--measured", "--jobs"},
+    "boundary": OF_A_MODEL | OF_A_SEARCH | {"--measured", "--trace", "--jobs"},
 }
 
 

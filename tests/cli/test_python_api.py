@@ -49,9 +49,9 @@ def test_studies_reject_unknown_keywords(wing):
 @pytest.mark.parametrize("highest", [0.0, -1.0, float("nan"), float("inf")])
 def test_studies_reject_impossible_airspeeds(wing, highest):
     model = AeroelasticWing(wing)
-    with pytest.raises(InputError, match="greater than 0 m/s"):
+    with pytest.raises(InputError, match="100000 m/s"):
         boundary_study(model, CASES, highest=highest)
-    with pytest.raises(InputError, match="greater than 0 m/s"):
+    with pytest.raises(InputError, match="100000 m/s"):
         flutter_study(model, CASES[0], highest=highest)
 
 

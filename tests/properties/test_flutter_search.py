@@ -98,7 +98,7 @@ def crossings_that_are_no_points(system, loci, points):
 def wrong_counts(system, analysis, loci):
     """`certified` must say what an independent count says."""
     slow, fast = analysis.speed_range
-    plain = UnstableRoots(system, 1.5 * analysis.sweep.region.highest, points=120)
+    plain = UnstableRoots(system, 1.5 * analysis.sweep.region.highest)
     lowest = plain.at(slow)
     speeds = [*nearest_misses(loci), (slow * fast) ** 0.5, fast * 0.999][:COUNTS]
     right = all(plain.at(U) == unstable_by(analysis.points, U, lowest) for U in speeds)

@@ -125,7 +125,7 @@ class UnstableRoots:
     beside the contour is felt before the contour has stepped past it.
     """
 
-    def __init__(self, problem, highest, threshold=0.0, points=200):
+    def __init__(self, problem, highest, threshold=0.0, points=250):
         self.problem, self.ray, self.highest = problem, 1j - threshold, highest
         self.right = 4.0 + abs(threshold) * highest
         self.t = np.linspace(0.0, 2.0, points)

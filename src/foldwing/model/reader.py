@@ -5,7 +5,7 @@ import tomllib
 from pathlib import Path
 
 from foldwing.errors import InputError
-from foldwing.model.faults import as_input_error, shown
+from foldwing.model.faults import as_input_error
 from foldwing.model.library import example_names, example_text
 from foldwing.model.record import suggest
 from foldwing.model.resolve import resolved
@@ -41,9 +41,7 @@ def model_text(source: str | Path) -> str:
         content = path.read_bytes() if path.is_file() else None
     except (OSError, ValueError) as error:
         limit = f"cannot be read ({getattr(error, 'strerror', None) or error})"
-        raise InputError(
-            "MODEL", shown(str(source)), limit, "Check the name and permissions."
-        ) from error
+        raise InputError("MODEL", str(source), limit, "Check the name and permissions.") from error
     if content is None:
         raise _no_such_model(path, source)
     try:
@@ -51,7 +49,7 @@ def model_text(source: str | Path) -> str:
     except UnicodeDecodeError as error:
         limit = "must be a text file in UTF-8"
         remedy = f"Give a TOML file saved as UTF-8. {_START}"
-        raise InputError("MODEL", shown(str(source)), limit, remedy) from error
+        raise InputError("MODEL", str(source), limit, remedy) from error
 
 
 def parse_model(text: str, source: str = "MODEL") -> Wing:
@@ -101,4 +99,4 @@ def _no_such_model(path: Path, source: str | Path) -> InputError:
     else:
         limit = "must be a TOML file or the name of a shipped example"
         remedy = suggest(source, example_names())
-    return InputError("MODEL", shown(str(source)), limit, remedy)
+    return InputError("MODEL", str(source), limit, remedy)

@@ -12,7 +12,7 @@ from foldwing.results.flutter_table import table_variables
 from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.status import Status
-from foldwing.structure.following import follow_modes
+from foldwing.structure.following import FollowedModes, follow_modes
 from foldwing.studies.case import Case, solve_case
 from foldwing.studies.flutter import METHODS
 from foldwing.studies.grid import radians, swept_hinge
@@ -189,18 +189,25 @@ def _dataset(
 
 def _frequencies(model: AeroelasticWing, outcomes: Sequence[Outcome]) -> Variables:
     """Return the natural frequencies, followed from case to case; nan where a case failed."""
-    solved = [index for index, outcome in enumerate(outcomes) if outcome.case is not None]
-    if not solved:
+    cases = {i: outcome.case for i, outcome in enumerate(outcomes) if outcome.case is not None}
+    if not cases:
         return {}
-    angles = [radians(outcomes[index].folds) for index in solved]
-    found = mode_variables(follow_modes(model.assembly, angles))
+    found = mode_variables(_followed(model, list(cases.values())))
     spread = {}
     for name, (dims, values) in found.items():
         missing = "" if values.dtype.kind == "U" else np.nan
         every = np.full((len(outcomes), values.shape[1]), missing, values.dtype)
-        every[solved] = values
+        every[list(cases)] = values
         spread[name] = (dims, every)
     return spread
+
+
+def _followed(model: AeroelasticWing, cases: Sequence[Case]) -> list[FollowedModes]:
+    """Return the modes of the cases in matched order, or as they are with no confidence."""
+    try:
+        return follow_modes(model.assembly, [radians(case.folds) for case in cases])
+    except NUMERICAL_FAILURES:
+        return [FollowedModes(case.modes, np.zeros(case.modes.count)) for case in cases]
 
 
 def _verdicts(outcomes: Sequence[Outcome]) -> Variables:
