@@ -4,6 +4,8 @@ Evidence: loci followed upwards from rest, which the naming does not use (it goe
 crossing), and the wings whose humps are known.
 """
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -102,7 +104,7 @@ def test_onset_and_recovery_alternate_on_a_branch():
         points = of_kind(find_flutter(example(*case), RANGE), "flutter")
         for branch in {point.branch for point in points}:
             own = [point.event for point in points if point.branch == branch]
-            assert all(a != b for a, b in zip(own[:-1], own[1:], strict=True))
+            assert all(a != b for a, b in pairwise(own))
             humps = [
                 point.classification == "hump"
                 for point in points

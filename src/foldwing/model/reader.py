@@ -13,6 +13,9 @@ from foldwing.model.schema import ModelFile
 from foldwing.model.wing import Wing
 
 _TOML_REMEDY = "Correct the file: each line is a [table], or key = value with text in quotes."
+LONGEST_NAME = 400
+"""Characters of a file name shown in a message."""
+
 _START = "foldwing examples NAME --copy FILE gives a model to start from."
 
 
@@ -41,7 +44,9 @@ def model_text(source: str | Path) -> str:
         content = path.read_bytes() if path.is_file() else None
     except (OSError, ValueError) as error:
         limit = f"cannot be read ({getattr(error, 'strerror', None) or error})"
-        raise InputError("MODEL", str(source), limit, "Check the name and permissions.") from error
+        raise InputError(
+            "MODEL", _named(source), limit, "Check the name and permissions."
+        ) from error
     if content is None:
         raise _no_such_model(path, source)
     try:
@@ -49,7 +54,7 @@ def model_text(source: str | Path) -> str:
     except UnicodeDecodeError as error:
         limit = "must be a text file in UTF-8"
         remedy = f"Give a TOML file saved as UTF-8. {_START}"
-        raise InputError("MODEL", str(source), limit, remedy) from error
+        raise InputError("MODEL", _named(source), limit, remedy) from error
 
 
 def parse_model(text: str, source: str = "MODEL") -> Wing:
@@ -99,4 +104,10 @@ def _no_such_model(path: Path, source: str | Path) -> InputError:
     else:
         limit = "must be a TOML file or the name of a shipped example"
         remedy = suggest(source, example_names())
-    return InputError("MODEL", str(source), limit, remedy)
+    return InputError("MODEL", _named(source), limit, remedy)
+
+
+def _named(source: str | Path) -> str:
+    """Return a file name in full, unless it is longer than any path may be."""
+    name = str(source)
+    return name if len(name) <= LONGEST_NAME else f"{name[:LONGEST_NAME]}..."
