@@ -17,23 +17,26 @@ from foldwing.stability.pk import pk, pk_flutter
 from foldwing.stability.status import Status
 from foldwing.stability.tracking import branches_at, record, track
 from foldwing.stability.vg import vg, vg_flutter
-from support.stability import example, of_kind
+from support.stability import example_modes, example_wing, of_kind
 
-CASES = {
+MODES = 6
+CASES = {  # wing and folds, highest airspeed, number of flutter points below it
     "goland": (("goland",), 500.0, 2),
-    "hale": (("hale",), 110.0, 2),
+    "hale": (("hale",), 70.0, 1),
     "hump": (("three-segment", 30, -60), 50.0, 3),
     "level tip": (("three-segment", 85, -85), 70.0, 2),
-    "flat": (("three-segment", 0, 0), 90.0, 2),
 }
 EVERY = pytest.mark.parametrize("name", CASES)
+# where a p-k root is real, the aerodynamics are evaluated at k = 0, where dC/dp is infinite
+OVERDAMPED = pytest.mark.filterwarnings("ignore:invalid value encountered:RuntimeWarning")
 
 
 @cache
 def by_sweep(name):
     """System, highest airspeed and the oscillating flutter points of the sweep."""
     case, top, number = CASES[name]
-    problem = example(*case)
+    modes = example_modes(*case).only(np.arange(MODES))
+    problem = example_wing(case[0]).system(modes)
     points = of_kind(find_flutter(problem, (top / 150, top)), "flutter")
     assert len(points) == number
     return problem, top, points
@@ -81,9 +84,10 @@ def test_tracked_crossings(name):
 
 
 @EVERY
+@OVERDAMPED
 def test_p_k(name):
     problem, top, points = by_sweep(name)
-    result = pk(problem, np.linspace(top / 300, top, 300))
+    result = pk(problem, np.linspace(top / 60, top, 60))
     crossings = pk_flutter(problem, result, accuracy=1e-10)
     assert len(crossings) == len(points)
     for crossing, point in zip(crossings, points, strict=True):
@@ -121,11 +125,11 @@ def test_determinant_contours(name):
 
 
 @EVERY
-def test_mode_shapes_of_p_k_are_those_of_the_sweep(name):
+@OVERDAMPED
+def test_p_k_has_the_mode_shape_of_the_sweep(name):
     problem, _, points = by_sweep(name)
     for point in points:
-        speeds = np.linspace(point.speed / 200, point.speed, 200)
-        result = pk(problem, speeds)
+        result = pk(problem, np.linspace(point.speed / 40, point.speed, 40))
         distance = np.abs(result.eigenvalues[-1] / (2j * np.pi * point.frequency) - 1)
         j = int(np.nanargmin(distance))
         assert distance[j] < 1e-6

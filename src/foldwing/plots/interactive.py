@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from foldwing.plots.interactive_base import Json, base_layout, color_scale, numbers
+from foldwing.plots.interactive_scenes import scenes_figure
 from foldwing.plots.palette import THEMES
 from foldwing.plots.picture import (
     Area,
@@ -25,8 +27,6 @@ from foldwing.plots.picture import (
     Rule,
     ZeroLine,
 )
-
-Json = dict[str, Any]
 
 _PIXELS = 260
 """Height of a panel whose relative height is 1."""
@@ -53,8 +53,6 @@ def figure(picture: Picture) -> Json:
     """Return a picture as plotly JSON: ``data``, ``layout``, ``frames``; colours as roles."""
     panels = [panel for panel in picture.panels if isinstance(panel, Panel)]
     if len(panels) != len(picture.panels):
-        from foldwing.plots.interactive_scenes import scenes_figure
-
         return scenes_figure(picture)
     labels = {getattr(item, "label", "") for panel in panels for item in panel.items} - {""}
     rows = -(-len(labels) // 3)
@@ -82,23 +80,6 @@ def figure(picture: Picture) -> Json:
     return {"data": _legend_once(data), "layout": layout, "frames": []}
 
 
-def base_layout() -> Json:
-    """Return what every figure shares."""
-    return {
-        "autosize": True,
-        "paper_bgcolor": "@paper",
-        "plot_bgcolor": "@paper",
-        "font": {"color": "@ink", "size": 12.5},
-        "hovermode": "closest",
-        "hoverlabel": {
-            "bgcolor": "@paper",
-            "bordercolor": "@muted",
-            "font": {"color": "@ink"},
-            "namelength": -1,
-        },
-    }
-
-
 def colored(node: Any, theme: str) -> Any:
     """Return plotly JSON with the colours of a theme in place of roles."""
     colors = THEMES[theme]
@@ -115,19 +96,6 @@ def _color(colors: Mapping[str, str], role: str, opacity: str | None) -> str:
         return colors[role]
     red, green, blue = (int(colors[role][i : i + 2], 16) for i in (1, 3, 5))
     return f"rgba({red},{green},{blue},{opacity})"
-
-
-def color_scale(scale: str) -> list[list[Any]]:
-    """Return the colours of a scale from low to high, as roles."""
-    return [[0.0, f"@{scale}0"], [0.5, f"@{scale}1"], [1.0, f"@{scale}2"]]
-
-
-def numbers(values: Any) -> Any:
-    """Return nested lists with six significant digits and None for nan."""
-    array = np.asarray(values, float)
-    if array.ndim > 1:
-        return [numbers(part) for part in array]
-    return [float(f"{value:.6g}") if np.isfinite(value) else None for value in array.tolist()]
 
 
 def _add_axes(

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from foldwing.plots.interactive import Json, base_layout, color_scale, numbers
+from foldwing.plots.interactive_base import Json, base_layout, color_scale, numbers
 from foldwing.plots.picture import Picture, Scene, Surface, Tag, Thread
 
 _HEIGHT = 300

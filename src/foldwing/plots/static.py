@@ -1,14 +1,12 @@
 """Pictures as matplotlib figures, without any global state."""
 
-import textwrap
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -30,11 +28,18 @@ from foldwing.plots.picture import (
     Rule,
     ZeroLine,
 )
+from foldwing.plots.static_base import (
+    LINE,
+    WIDTH,
+    Colors,
+    color_map,
+    new_figure,
+    wrapped,
+    write_head,
+)
+from foldwing.plots.static_scenes import draw_scenes
 
-WIDTH = 8.0
 _LEFT, _BOTTOM, _GAP = 0.88, 0.52, 0.18
-_LINE = 0.19
-"""Height of a line of caption or legend in inches."""
 _DASHES: Mapping[str, Any] = {"solid": "-", "dash": (0, (5, 2)), "dot": (0, (1.2, 1.6))}
 _MARKERS = {
     "circle": "o",
@@ -48,8 +53,6 @@ _MARKERS = {
     "ring": "o",
 }
 
-Colors = Mapping[str, str]
-
 
 def draw(picture: Picture, theme: str = "light") -> Figure:
     """Return a picture as a matplotlib figure.
@@ -62,14 +65,12 @@ def draw(picture: Picture, theme: str = "light") -> Figure:
     """
     colors = THEMES[theme]
     if not all(isinstance(panel, Panel) for panel in picture.panels):
-        from foldwing.plots.static_scenes import draw_scenes
-
         return draw_scenes(picture, colors)
     panels = [panel for panel in picture.panels if isinstance(panel, Panel)]
     legend = _legend(panels, colors)
     caption = wrapped(picture.caption)
-    head = 0.36 + _LINE * len(caption) + 0.16
-    foot = _BOTTOM + _LINE * -(-len(legend) // 3) + (0.12 if legend else 0.0)
+    head = 0.36 + LINE * len(caption) + 0.16
+    foot = _BOTTOM + LINE * -(-len(legend) // 3) + (0.12 if legend else 0.0)
     heights = [PANEL_INCHES * panel.height for panel in panels]
     total = head + sum(heights) + _GAP * (len(panels) - 1) + foot
     figure = new_figure(WIDTH, total, colors)
@@ -88,33 +89,6 @@ def draw(picture: Picture, theme: str = "light") -> Figure:
     if legend:
         _add_legend(figure, legend, colors)
     return figure
-
-
-def new_figure(width: float, height: float, colors: Colors) -> Figure:
-    """Return an empty figure that can be saved without pyplot."""
-    figure = Figure(figsize=(width, height), facecolor=colors["paper"])
-    FigureCanvasAgg(figure)
-    return figure
-
-
-def wrapped(caption: str) -> list[str]:
-    """Break a caption into lines that fit the width."""
-    return textwrap.wrap(caption, 118)
-
-
-def write_head(figure: Figure, title: str, caption: list[str], colors: Colors) -> None:
-    """Write title and caption at the top left."""
-    height = figure.get_figheight()
-    x = 0.16 / figure.get_figwidth()
-    figure.text(x, 1 - 0.12 / height, title, color=colors["ink"], size=12, weight="bold", va="top")
-    for number, line in enumerate(caption):
-        y = 1 - (0.38 + _LINE * number) / height
-        figure.text(x, y, line, color=colors["muted"], size=8.5, va="top")
-
-
-def color_map(scale: str, colors: Colors) -> LinearSegmentedColormap:
-    """Return the colours of a scale from low to high."""
-    return LinearSegmentedColormap.from_list(scale, [colors[f"{scale}{i}"] for i in range(3)])
 
 
 def _graded(panel: Panel) -> bool:

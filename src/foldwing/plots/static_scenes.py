@@ -4,7 +4,7 @@ The views are simple enough to be projected here: sheets, lines and texts. That 
 faster than three-dimensional axes and sorts the faces of all sheets together.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,15 +14,20 @@ from matplotlib.colors import Normalize, to_rgba
 from matplotlib.figure import Figure
 
 from foldwing.plots.picture import Array, Picture, Scene, Surface, Tag, Thread
-from foldwing.plots.static import WIDTH, color_map, new_figure, wrapped, write_head
+from foldwing.plots.static_base import (
+    WIDTH,
+    Colors,
+    color_map,
+    new_figure,
+    wrapped,
+    write_head,
+)
 
 _AZIMUTH, _ELEVATION = np.radians(-38.0), np.radians(24.0)
 _MARGIN = 0.1
 
 Window = tuple[tuple[float, float], tuple[float, float]]
 """Ranges across and up the paper."""
-
-Colors = Mapping[str, str]
 
 
 def draw_scenes(picture: Picture, colors: Colors) -> Figure:
