@@ -53,13 +53,19 @@ class PolynomialAir:
         return -self.Q2 * self.half_chord**2
 
 
-def polynomial_system(rigid, damping):
-    """Four modes, some of them rigid; of two rigid ones a combination feels no steady force."""
+def polynomial_system(rigid, damping, push=0.0):
+    """Four modes, some of them rigid; of two rigid ones a combination feels no steady force.
+
+    The air pushes the rigid motion on: in proportion to its rate, or to itself if it feels it.
+    """
     rng = np.random.default_rng(5)
     Q0, Q1 = rng.standard_normal((2, 4, 4))
     Q0[:, :rigid] = np.outer(rng.standard_normal(4), [0.6, 0.8])[:, :rigid]
     if rigid == 1:
         Q0[:, 0] = 0.0
+        Q1[0, 0] += push
+    else:
+        Q0[:2, :2] += push * np.outer([0.6, 0.8], [0.6, 0.8])
     A = rng.standard_normal((4, 4))
     air = PolynomialAir(Q0, Q1 - 3 * np.eye(4), -0.1 * A @ A.T)
     return AeroelasticSystem(np.array([0.0] * rigid + [2.0, 3.0, 5.0, 8.0][rigid:]), air, damping)
@@ -181,6 +187,27 @@ def test_roots_of_polynomial_air_are_those_of_a_state_matrix(name):
     for p in roots[np.abs(roots) > 1e-12]:
         s = np.linalg.svd(evaluate(system, np.array([p]), np.array([U]))[0], compute_uv=False)
         assert s[-1] < 1e-12 * s[0]
+
+
+@pytest.mark.parametrize("rigid", [1, 2])
+@pytest.mark.parametrize("damping", [0.0, 0.04])
+def test_counts_of_polynomial_air_from_a_state_matrix(rigid, damping):
+    """A rigid motion that the air makes unstable at every airspeed is counted at every airspeed."""
+    system = polynomial_system(rigid, damping, push=6.0)
+    n, b, air = system.size, system.half_chord, system.aerodynamics
+    M = np.eye(n) - b**2 * air.Q2
+    analysis = find_flutter(system, (0.5, 20.0))
+    exact = []
+    for U in analysis.certificate.speeds:
+        C = np.diag(2 * system.damping * system.omega) - U * b * air.Q1
+        K = np.diag(system.omega**2) - U**2 * air.Q0
+        states = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(M, np.hstack([K, C]))]])
+        p = np.linalg.eigvals(states) * b / U
+        assert p.real.max() < 1.5
+        exact.append(int(np.count_nonzero(p.real > 1e-9)))
+    assert analysis.certificate.counted.tolist() == exact
+    assert analysis.certified
+    assert min(exact) >= 1
 
 
 def test_quasi_steady_points_from_a_state_matrix():

@@ -145,6 +145,22 @@ def test_close_roots_keep_to_their_own_section(sections):
     assert min(closest) < 0.1
 
 
+@pytest.mark.parametrize(
+    ("problem", "top"),
+    [
+        *((example(*case), TOPS[case[0]]) for case in EXAMPLES),
+        (ManySections(neighbours(1e-4)), 12.0),
+        (ManySections(CROSSING), 12.0),
+    ],
+)
+def test_steps_are_as_small_as_they_need_to_be(problem, top):
+    """Asked for the highest airspeed only, the branches are those of many small steps."""
+    once = track(problem, np.array([top]))
+    often = track(problem, np.linspace(0.0, top, 200)[1:])
+    np.testing.assert_array_equal(once.status[0], often.status[-1])
+    np.testing.assert_allclose(once.eigenvalue[0], often.eigenvalue[-1], rtol=1e-8)
+
+
 def test_two_branches_on_one_root_are_noticed():
     """Identical sections have double roots; the second branch is not one of its own."""
     root = polish_roots(SECTION, np.array([0.3j]), np.array([5.0]))
