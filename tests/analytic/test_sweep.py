@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from foldwing.stability import sweep as sweep_module
+from foldwing.stability.certificate import count_unstable
+from foldwing.stability.crossings import divergence_speeds
 from foldwing.stability.domains import Rectangle
 from foldwing.stability.flutter import find_flutter
 from foldwing.stability.path import follow_path
@@ -15,7 +17,7 @@ from foldwing.stability.problem import evaluate
 from foldwing.stability.region import Region
 from foldwing.stability.rootfinding import count_roots
 from foldwing.stability.spectrum import at_speed
-from foldwing.stability.sweep import count_unstable, divergence_speeds, sweep, sweep_region
+from foldwing.stability.sweep import sweep, sweep_region
 from support.stability import (
     Polynomials,
     UnstableRoots,
@@ -302,18 +304,43 @@ def test_closer_crossings_are_found_or_the_case_is_not_certified(apart):
 
 def test_a_withheld_crossing_is_noticed(monkeypatch):
     problem, speed_range = wing("three-segment", 30, -60)
-    whole = sweep_module._flutter_roots
+    whole = sweep_module.flutter_roots
     assert sweep(problem, speed_range).certificate.certified
     for missing in range(5):
 
         def without(*arguments, index=missing):
-            roots = whole(*arguments)
-            return roots.take(np.delete(np.arange(len(roots.p)), index))
+            roots, path = whole(*arguments)
+            return roots.take(np.delete(np.arange(len(roots.p)), index)), path
 
-        monkeypatch.setattr(sweep_module, "_flutter_roots", without)
+        monkeypatch.setattr(sweep_module, "flutter_roots", without)
         certificate = sweep(problem, speed_range).certificate
         assert not certificate.certified
         assert np.any(certificate.counted != certificate.expected)
+
+
+def test_a_withheld_pair_is_noticed(monkeypatch):
+    """An onset and its recovery cancel in the count between other points; they are missed too."""
+    problem, speed_range = wing("three-segment", 30, -60)
+    whole = sweep_module.flutter_roots
+    for pair in ((0, 1), (1, 2), (2, 4), (3, 4)):
+
+        def without(*arguments, index=pair):
+            roots, path = whole(*arguments)
+            return roots.take(np.delete(np.arange(len(roots.p)), index)), path
+
+        monkeypatch.setattr(sweep_module, "flutter_roots", without)
+        assert not sweep(problem, speed_range).certificate.certified
+
+
+@pytest.mark.parametrize("beyond", [0.3, 1e-2, 1e-3, 1e-4, 2e-5])
+def test_a_hump_is_found_however_narrow(beyond):
+    """Just beyond the fold of the boundary onset and recovery are a hair apart, and still two."""
+    problem, speed_range = wing("three-segment", 30, -31.4083547 - beyond)
+    points = of_kind(find_flutter(problem, speed_range), "flutter")
+    assert [point.event for point in points[:2]] == ["onset", "recovery"]
+    assert points[0].classification == "hump"
+    assert 19.0 < points[0].speed < points[1].speed < 20.8
+    assert points[1].speed - points[0].speed == pytest.approx(2.15 * beyond**0.5, rel=0.5)
 
 
 FREE = [("same", None), (None, "same"), (None, None)]

@@ -124,14 +124,14 @@ def test_a_case_that_lacks_a_crossing_is_not_certified(seed, monkeypatch):
     found = len(of_kind(find_flutter(system, limits), "flutter"))
     assert solve_case(model, folds, limits).status is Status.OK
     assert found > 0
-    whole = sweep_module._flutter_roots
+    whole = sweep_module.flutter_roots
     for missing in range(found):
 
         def without(*arguments, index=missing):
-            roots = whole(*arguments)
-            return roots.take(np.delete(np.arange(len(roots.p)), index))
+            roots, path = whole(*arguments)
+            return roots.take(np.delete(np.arange(len(roots.p)), index)), path
 
-        monkeypatch.setattr(sweep_module, "_flutter_roots", without)
+        monkeypatch.setattr(sweep_module, "flutter_roots", without)
         case = solve_case(model, folds, limits)
         assert not case.analysis.certificate.certified
         assert not case.analysis.certified

@@ -6,11 +6,12 @@ import numpy as np
 
 from foldwing.maths.arrays import Mask
 from foldwing.stability.branches import energy_modes, trace_origins
+from foldwing.stability.certificate import Certificate
 from foldwing.stability.newton import Roots
 from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.real_axis import mergers, real_axis_path
 from foldwing.stability.status import FlutterPoint, Status
-from foldwing.stability.sweep import Certificate, Sweep, sweep
+from foldwing.stability.sweep import Sweep, sweep
 
 CRITICAL_EVENTS = ("onset", "merger")
 

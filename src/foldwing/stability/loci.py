@@ -5,12 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldwing.maths.arrays import Complex, Indices, Mask, Real
+from foldwing.stability.certificate import count_unstable
 from foldwing.stability.newton import Roots, polish_roots, roots_at
 from foldwing.stability.path import EigenvaluePath
 from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.real_axis import births, real_axis_path, real_roots
 from foldwing.stability.status import Status
-from foldwing.stability.sweep import Sweep, count_unstable
+from foldwing.stability.sweep import Sweep
 from foldwing.stability.tracking import Branches, Loci, branches_at, record, track
 
 BESIDE = 1e-3

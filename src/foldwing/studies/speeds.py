@@ -7,8 +7,8 @@ import numpy as np
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
+from foldwing.stability.crossings import divergence_speeds
 from foldwing.stability.flutter import FlutterAnalysis
-from foldwing.stability.sweep import divergence_speeds
 
 LOWEST_FRACTION = 1.0 / 150.0
 """Lowest airspeed of the search as a fraction of its end, at most of the end that is automatic."""
