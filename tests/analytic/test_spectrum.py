@@ -219,3 +219,18 @@ def test_refuses_regions_on_the_branch_cut(region):
 def test_refuses_speed_zero():
     with pytest.raises(InputError, match="speed"):
         at_speed(TypicalSection(), 0.0)
+
+
+class TwoRootsBeside:
+    """A scalar function whose roots lie just below the edge of a rectangle."""
+
+    def value(self, z):
+        return ((z - 0.0301) * (z - 0.0307))[:, None, None]
+
+    def derivative(self, z):
+        return (2 * z - 0.0608)[:, None, None]
+
+
+def test_roots_beside_the_contour_do_not_turn_it_unseen():
+    """Stepping past two close roots outside the contour may look like no turn at all."""
+    assert count_roots(TwoRootsBeside(), Rectangle((0.0, 1.2), (0.0002, 1.0))) == 0

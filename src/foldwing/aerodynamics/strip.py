@@ -139,10 +139,11 @@ class StripModel:
         value[:, 0], value[:, 1], value[:, 2] = 1.0, p, p * p
         slope[:, 1], slope[:, 2] = 1.0, 2.0 * p
         for number, chord in enumerate(self._chords):
-            C, dC = self._lag(p, chord)
             column = 3 + 2 * number
+            with np.errstate(invalid="ignore"):  # at p = 0 dC/dp is infinite
+                C, dC = self._lag(p, chord)
+                slope[:, column], slope[:, column + 1] = dC, C + p * dC
             value[:, column], value[:, column + 1] = C, p * C
-            slope[:, column], slope[:, column + 1] = dC, C + p * dC
         return value, slope
 
     def forces(self, p: Complex) -> Complex:
@@ -152,11 +153,12 @@ class StripModel:
         return (value @ self._terms).reshape(len(p), self.size, self.size)
 
     def forces_with_derivative(self, p: Complex) -> tuple[Complex, Complex]:
-        """Return Qhat and dQhat/dp, each of shape (m, n, n)."""
+        """Return Qhat and dQhat/dp, each of shape (m, n, n); the latter is not finite at p = 0."""
         p = np.asarray(p, complex)
         value, slope = self._factors(p)
         shape = (len(p), self.size, self.size)
-        return (value @ self._terms).reshape(shape), (slope @ self._terms).reshape(shape)
+        with np.errstate(invalid="ignore"):
+            return (value @ self._terms).reshape(shape), (slope @ self._terms).reshape(shape)
 
     def steady_forces(self) -> Real:
         """Return Qhat(0), shape (n, n)."""

@@ -1,6 +1,6 @@
 """Eigenvalues against airspeed: oscillating branches, real roots, and their certificate."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -122,6 +122,8 @@ def _with_branch(problem: AeroelasticProblem, loci: Loci, root: Branches) -> Loc
     if same.any():
         return loci
     downward = record(problem, root, loci.speed[below])
+    unborn = downward.status == Status.LEFT_DOMAIN
+    downward = replace(downward, status=np.where(unborn, Status.ABSENT, downward.status))
     return loci.joined(upward, above, downward, below)
 
 

@@ -79,6 +79,7 @@ def _bordered(T: Evaluation, right: Complex, left: Complex) -> _Bordered:
     m, n, _ = T.value.shape
     A = np.zeros((m, n + 1, n + 1), dtype=complex)
     scale = np.abs(T.value).max(axis=(1, 2))[:, None]
+    scale = np.where(scale > 0.0, scale, 1.0)
     A[:, :n, :n] = T.value
     A[:, :n, n] = left.conj() * scale
     A[:, n, :n] = right.conj() * scale

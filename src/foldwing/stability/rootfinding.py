@@ -88,8 +88,9 @@ def no_roots(n: int) -> RootList:
 def count_roots(function: MatrixFunction, contour: Domain) -> int | None:
     """Count the zeros of det T inside a contour by the argument principle.
 
-    The contour is bisected until arg det T changes by less than 0.8 rad from point to point, and
-    once more all along as a confirmation that no full turn was missed.
+    The contour is bisected until arg det T changes by less than 0.8 rad from point to point, by
+    the angle itself and by its rate tr(T^-1 T') at both ends: roots beside the contour are felt
+    before it has stepped past them. Once more all along it as a confirmation.
 
     Parameters
     ----------
@@ -104,13 +105,15 @@ def count_roots(function: MatrixFunction, contour: Domain) -> int | None:
         because a root lies on the contour or the contour crosses a branch cut.
     """
     t = np.linspace(0.0, 1.0, _FIRST_POINTS + 1)
-    phase = _phase(function, contour.points(t))
+    z = contour.points(t)
+    phase, rate = _phase_and_rate(function, z)
     confirmed = False
     for _ in range(_MAX_BISECTIONS):
         if not np.all(np.abs(phase) > 0.5):
             return None
         turn = np.angle(phase[1:] * phase[:-1].conj())
-        wide = np.abs(turn) > _LARGEST_TURN
+        change = np.abs(np.diff(z)) * np.maximum(rate[1:], rate[:-1])
+        wide = np.maximum(np.abs(turn), change) > _LARGEST_TURN
         if not wide.any():
             if confirmed:
                 return round(float(turn.sum()) / (2 * np.pi))
@@ -118,15 +121,21 @@ def count_roots(function: MatrixFunction, contour: Domain) -> int | None:
         confirmed = bool(wide.all())
         middle = (t[:-1][wide] + t[1:][wide]) / 2
         place = np.flatnonzero(wide) + 1
-        t = np.insert(t, place, middle)
-        phase = np.insert(phase, place, _phase(function, contour.points(middle)))
+        added = contour.points(middle)
+        t, z = np.insert(t, place, middle), np.insert(z, place, added)
+        new_phase, new_rate = _phase_and_rate(function, added)
+        phase, rate = np.insert(phase, place, new_phase), np.insert(rate, place, new_rate)
     return None
 
 
-def _phase(function: MatrixFunction, z: Complex) -> Complex:
-    """Return det T/|det T|; 0 or NaN where it is undefined."""
-    phase: Complex = np.linalg.slogdet(function.value(z))[0]
-    return phase
+def _phase_and_rate(function: MatrixFunction, z: Complex) -> tuple[Complex, Real]:
+    """Return det T/|det T|, 0 or NaN where it is undefined, and |d(log det T)/dz|."""
+    T, slope = function.value(z), function.derivative(z)
+    phase: Complex = np.linalg.slogdet(T)[0]
+    singular = ~(np.abs(phase) > 0.5)
+    T = np.where(singular[:, None, None], np.eye(T.shape[1]), T)
+    rate = np.abs(np.trace(np.linalg.solve(T, slope), axis1=1, axis2=2))
+    return phase, rate
 
 
 def multiplicity(function: MatrixFunction, z: complex, others: Complex, size: float) -> int:
