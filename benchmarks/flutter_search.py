@@ -1,11 +1,12 @@
 """How fast are certified flutter points and loci, beside determinant contours?
 
-Both sides solve the same case, the three-segment wing at 30, -60 degrees with twelve modes, one after
-the other in one process on one core.
+Both sides solve the same case, the three-segment wing at 30, -60 degrees with twelve modes, one
+after the other in one process on one core.
 
 The contours are the brute-force method: at each of 100 airspeeds the determinant on a grid of
-200 x 200 values of lambda, vectorized, with everything that does not depend on the grid point computed
-once; its zero lines and their crossings. It yields approximate eigenvalues; no exact flutter points.
+200 x 200 values of lambda, vectorized, with everything that does not depend on the grid point
+computed once; its zero lines and their crossings. It yields approximate eigenvalues; no exact
+flutter points.
 """
 
 import os

@@ -36,7 +36,8 @@ def test_curve_against_a_search_at_every_point(step, threshold):
     curve = follow_boundary(section, start, step, limits, threshold)
     assert curve.end == "parameter"
     assert curve.turning == ()
-    assert not 1.8 <= curve.parameter[-1] <= 3.5
+    edge = 3.5 if step > 0 else 1.8
+    assert 0.0 <= (edge - curve.parameter[-1]) / step < 0.05  # up to the limit, not beyond
     assert np.all(np.diff(curve.parameter) * step > 0)
     assert len(curve.parameter) > 5
     for s, k, U, strength in zip(
@@ -108,7 +109,7 @@ def test_onset_turns_into_recovery(kind):
     assert np.all(np.diff(curve.parameter[: top + 1]) > 0)
     assert np.all(np.diff(curve.parameter[top:]) < 0)
     assert curve.parameter[0] == start
-    assert curve.parameter[-1] < angles[0]
+    assert 0.0 <= curve.parameter[-1] - angles[0] < 0.1
     assert np.all(np.diff(curve.speed) > 0) or kind == "third"
     before, after = curve.strength[: top - 1], curve.strength[top + 2 :]
     assert np.all(before > 0)
@@ -166,7 +167,8 @@ def test_a_curve_ends_where_the_speed_leaves_its_range():
     limits = Limits((0.5, 9.0), (0.3, 7.0))
     curve = follow_boundary(section, (2.5, onset.p.imag, onset.speed), 0.05, limits)
     assert curve.end == "speed"
-    assert curve.speed[-1] > 7.0 >= curve.speed[-2]
+    assert 6.99 < curve.speed[-1] <= 7.0
+    assert np.all(np.diff(curve.speed) > 0)
 
 
 def test_a_curve_ends_after_so_many_points():

@@ -165,7 +165,9 @@ class StripModel:
         return np.asarray(sum(s.lag for s in self.segments))
 
     def apparent_mass(self) -> Real | None:
-        """Return the apparent mass of still air (n, n): zero for quasi-steady theory."""
+        """Return the apparent mass of still air (n, n); None for quasi-steady theory."""
+        if not self.lag:
+            return None
         return np.asarray(-sum(s.acceleration for s in self.segments))
 
 

@@ -20,7 +20,7 @@ from foldwing.maths.arrays import Complex, Mask, Real
 from foldwing.stability.problem import Pencil, StillAir
 
 NEUTRAL_TOLERANCE = 1e-9
-"""Steady force of a rigid motion, relative to the largest, below which the motion is neutral."""
+"""Steady force of a rigid motion, relative to forces at p = i, below which it is neutral."""
 
 
 @dataclass(frozen=True)
@@ -74,8 +74,8 @@ class AeroelasticSystem:
         """Which columns of T are neutral motions: exact zero roots at every airspeed."""
         steady = self.aerodynamics.steady_forces()
         size = np.linalg.norm(steady @ self.rotation, axis=0)
-        largest = max(float(np.linalg.norm(steady, 2)), np.finfo(float).tiny)
-        return np.asarray(self.rigid & (size < NEUTRAL_TOLERANCE * largest))
+        typical = float(np.linalg.norm(self.aerodynamics.forces(np.array([1j]))[0], 2))
+        return np.asarray(self.rigid & (size < NEUTRAL_TOLERANCE * typical))
 
     @cached_property
     def scale(self) -> Real:

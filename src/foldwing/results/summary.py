@@ -91,6 +91,9 @@ def _flutter_answer(dataset: "xarray.Dataset") -> str:
         for kind in ("flutter", "divergence")
     }
     parts = [_onset(row, rows) for row in first.values() if row is not None]
+    again = _onset_after_hump(first["flutter"], rows)
+    if again is not None:
+        parts.insert(1, again)
     already = _unstable_from_start(dataset)
     if parts:
         text = "; ".join(parts)
@@ -102,13 +105,16 @@ def _unstable_from_start(dataset: "xarray.Dataset") -> str:
     """Return a sentence on roots beyond the boundary at the lowest airspeed already, or nothing."""
     if "unstable_from_start" not in dataset:
         return ""
-    count = int(dataset["unstable_from_start"][0])
-    if count <= 0:
+    already = dataset["unstable_from_start"].values > 0
+    if not already.any():
         return ""
-    lowest = float(dataset["valid_from"][0])
-    beyond = "is beyond the boundary" if count == 1 else "are beyond the boundary"
-    roots = "root" if count == 1 else "roots"
-    return f"{count} {roots} {beyond} from the lowest airspeed, {lowest:.3g} m/s, on. "
+    lowest = float(np.nanmax(dataset["valid_from"].values))
+    if dataset.sizes["fold"] > 1:
+        who = f"{int(already.sum())} of {already.size} cases are"
+        return f"{who} beyond the boundary from the lowest airspeed, {lowest:.3g} m/s, on. "
+    count = int(dataset["unstable_from_start"][0])
+    roots = "1 root is" if count == 1 else f"{count} roots are"
+    return f"{roots} beyond the boundary from the lowest airspeed, {lowest:.3g} m/s, on. "
 
 
 def _boundary_answer(dataset: "xarray.Dataset") -> str:
@@ -118,7 +124,8 @@ def _boundary_answer(dataset: "xarray.Dataset") -> str:
         return _nothing_found(dataset)
     what = f"mode {row.mode_name} at {row.frequency:.3g} Hz" if row.kind == "flutter" else ""
     detail = _listed(row.kind, fold_text(dataset, row.case), what)
-    return f"The lowest speed of instability in {total} cases is {row.speed:.3g} m/s ({detail})."
+    where = f"in {total} cases is {row.speed:.3g} m/s ({detail})"
+    return f"{_unstable_from_start(dataset)}The lowest speed of instability {where}."
 
 
 def _nothing_found(dataset: "xarray.Dataset") -> str:
@@ -153,6 +160,22 @@ def _onset(row: FlutterRow, rows: Sequence[FlutterRow]) -> str:
     return f"{text}, a hump that ends at {min(end):.3g} m/s)" if end else f"{text})"
 
 
+def _onset_after_hump(first: FlutterRow | None, rows: Sequence[FlutterRow]) -> str | None:
+    """Return where flutter begins next when the first one is a hump, and no motion flutters."""
+    if first is None or first.classification != "hump":
+        return None
+    later = [
+        row
+        for row in rows
+        if row.kind == "flutter" and row.event == "onset" and row.speed > first.speed
+    ]
+    return (
+        f"flutter again from {later[0].speed:.3g} m/s (mode {later[0].mode_name})"
+        if later
+        else None
+    )
+
+
 def _limit(dataset: "xarray.Dataset") -> str:
     if "speed_limit" in dataset.attrs:
         return f" up to {float(dataset.attrs['speed_limit']):.3g} m/s"
@@ -171,5 +194,5 @@ def _validity(dataset: "xarray.Dataset") -> str:
 
 
 def _case_list(dataset: "xarray.Dataset", cases: Sequence[int], most: int = 12) -> str:
-    named = "; ".join(fold_text(dataset, case) for case in cases[:most])
+    named = "; ".join(fold_text(dataset, case) or "this case" for case in cases[:most])
     return named if len(cases) <= most else f"{named}; and {len(cases) - most} more"

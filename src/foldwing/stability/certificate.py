@@ -16,6 +16,9 @@ REFINEMENTS = 14
 EDGE = 0.03
 """Relative distance from an end of the range within which crossings are not matched."""
 
+MOST_POINTS = 5_000
+"""Points of a path beyond which a count that is still in doubt is given up."""
+
 NEAR_SEED = 0.3
 """Difference of log U within which a flutter point belongs to a crossing of a branch."""
 
@@ -121,6 +124,8 @@ def _counted(
         if len(pending) == 0:
             break
         steps = np.flatnonzero(doubtful.any(axis=0))
+        if len(path.p) + len(steps) > MOST_POINTS:
+            break
         middle = (path.parameter[steps] + path.parameter[steps + 1]) / 2.0
         path = refined(problem, path, region.point, middle)
     return count, path

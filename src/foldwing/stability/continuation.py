@@ -30,6 +30,9 @@ TOLERANCE = 1e-7
 SMALLEST_STEP = 1e-4
 """Fraction of the first step below which the curve is given up."""
 
+LAST_STEP = 0.01
+"""Step at which a curve that leaves its limits is ended: its last point is so near to them."""
+
 LONGEST_STEP = 2.0
 """Most arc length of a step, in first steps."""
 
@@ -193,8 +196,9 @@ class _Equation:
 def _followed(
     equation: _Equation, at: Real, ahead: Real, limits: Limits
 ) -> tuple[list[Real], list[Real], str]:
-    """Step along the curve until it ends."""
+    """Step along the curve until it ends; at a limit, with ever smaller steps up to it."""
     points, tangents, step = [at], [equation.tangent(at, ahead)], 1.0
+    longest = LONGEST_STEP
     while len(points) < limits.points:
         new = equation.corrected(points[-1] + step * tangents[-1], tangents[-1])
         tangent = None if new is None else equation.tangent(new, tangents[-1])
@@ -203,13 +207,18 @@ def _followed(
             if step < SMALLEST_STEP:
                 return points, tangents, "lost"
             continue
+        end = _end([*points, new], limits, equation.scale)
+        if end and end != "closed":
+            longest = step = step / 2.0
+            if step < LAST_STEP:
+                return points, tangents, end
+            continue
         points.append(new)
         tangents.append(tangent)
-        end = _end(points, limits, equation.scale)
         if end:
             return points, tangents, end
         smooth = tangent @ tangents[-2] > EASY_COSINE
-        step = min(2.0 * step, LONGEST_STEP) if smooth else step
+        step = min(2.0 * step, longest) if smooth else step
     return points, tangents, "length"
 
 

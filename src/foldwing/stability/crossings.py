@@ -11,6 +11,9 @@ from foldwing.stability.path import EigenvaluePath, inverse_speeds, refined
 from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.region import SMALLEST, Region
 
+ROUND_OFF = 1e-10
+"""Square of the ratio of airspeeds beyond which an inverse speed is round-off of the largest."""
+
 SAME_POINT = 1e-7
 """Relative difference in U and k below which two flutter points are one."""
 
@@ -158,7 +161,10 @@ def divergence_roots(
 
 
 def _positive_speeds(inverse: Complex, power: int) -> Real:
-    real = (np.abs(inverse.imag) < 1e-7 * np.abs(inverse)) & (inverse.real > 0.0)
+    """Return the airspeeds of real positive inverse speeds that are not round-off of the others."""
+    size = np.abs(inverse)
+    real = (np.abs(inverse.imag) < 1e-7 * size) & (inverse.real > 0.0)
+    real &= size > ROUND_OFF ** (power / 2.0) * size.max(initial=0.0)
     return np.asarray(np.sort(inverse.real[real] ** (-1.0 / power)))
 
 

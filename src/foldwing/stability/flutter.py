@@ -80,7 +80,9 @@ def find_flutter(
         crossings.roots.take(real),
         ["onset" if grows else "recovery" for grows in crossings.onset[real]],
     )
-    double = mergers(problem, real_axis_path(problem, speed_range[1]), speed_range)
+    double = mergers(
+        problem, real_axis_path(problem, speed_range[1], result.region.edge), speed_range
+    )
     merged = _real_points(problem, double, ["merger"] * len(double.p))
     points = sorted([*flutter, *divergence, *merged], key=lambda point: point.speed)
     return FlutterAnalysis(tuple(points), result.certificate, speed_range, threshold, result)

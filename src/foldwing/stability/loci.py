@@ -51,6 +51,34 @@ class RootLoci:
     mode: Indices
     certified: Mask
 
+    def by_mode(self, count: int) -> "RootLoci":
+        """Return the loci with branch j in column j, absent ones empty, and the others behind.
+
+        Parameters
+        ----------
+        count : int
+            Number of columns of T; one without stiffness has no branch from rest.
+        """
+        others = np.flatnonzero(self.mode < 0)
+        source = np.full(count + len(others), -1)
+        for column, mode in enumerate(self.mode):
+            if mode >= 0:
+                source[mode] = column
+        source[count:] = others
+        absent = source < 0
+        empty = {
+            "eigenvalue": complex(np.nan, 0.0),
+            "residual": np.nan,
+            "confidence": 0.0,
+            "status": int(Status.ABSENT),
+        }
+        columns = {
+            name: np.where(absent, nothing, getattr(self, name)[:, source])
+            for name, nothing in empty.items()
+        }
+        mode = np.concatenate([np.arange(count), np.full(len(others), -1)])
+        return replace(self, mode=mode, **columns)
+
 
 def root_loci(problem: AeroelasticProblem, speeds: Real, sweep: Sweep) -> RootLoci:
     """Follow all oscillating roots and add the real positive ones.
@@ -63,7 +91,7 @@ def root_loci(problem: AeroelasticProblem, speeds: Real, sweep: Sweep) -> RootLo
     sweep : Sweep
         Of the same problem; its path around the unstable region counts the roots.
     """
-    real_axis = real_axis_path(problem, float(speeds[-1]))
+    real_axis = real_axis_path(problem, float(speeds[-1]), sweep.region.edge)
     loci = _with_born_pairs(problem, track(problem, speeds), sweep, real_axis)
     real, residual = _real_columns(problem, real_axis, speeds)
     absent = np.isnan(real.real)

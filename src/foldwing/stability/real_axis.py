@@ -25,9 +25,11 @@ ZOOMS = 4
 """Most times that the path is refined around a minimum of U(p)."""
 
 
-def real_axis_path(problem: AeroelasticProblem, fastest: float) -> EigenvaluePath:
-    """Return the inverse speeds along 1e-6 <= p <= 1.5 on the real axis, parameter ln p."""
-    parameter = np.linspace(np.log(1e-6), np.log(RIGHT_EDGE), POINTS)
+def real_axis_path(
+    problem: AeroelasticProblem, fastest: float, edge: float = RIGHT_EDGE
+) -> EigenvaluePath:
+    """Return the inverse speeds along 1e-6 <= p <= ``edge`` on the real axis, parameter ln p."""
+    parameter = np.linspace(np.log(1e-6), np.log(edge), POINTS)
     return follow_path(problem, _point, parameter, fastest)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from foldwing.maths.arrays import Complex, Real
 
 RIGHT_EDGE = 1.5
-"""Re p of the right edge; an aircraft's or wing's unstable roots grow by less than this per b/U."""
+"""Re p of the right edge: unstable roots of a wing with apparent mass grow by less per b/U."""
 
 SMALLEST = 1e-10
 """Reduced frequency that stands for zero."""
@@ -30,12 +30,15 @@ class Region:
         Reduced frequencies between which the ray is swept densely, and where it ends.
     density : float
         Points per factor e of reduced frequency.
+    edge : float
+        Re p of the right edge at the real axis.
     """
 
     threshold: float
     lowest: float
     highest: float
     density: float = 11.0
+    edge: float = RIGHT_EDGE
 
     @property
     def ray(self) -> complex:
@@ -45,7 +48,7 @@ class Region:
     @property
     def right(self) -> float:
         """Re p of the right edge."""
-        return RIGHT_EDGE + max(0.0, -self.threshold) * self.highest
+        return self.edge + max(0.0, -self.threshold) * self.highest
 
     @property
     def _corner(self) -> float:

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foldwing.maths.arrays import Mask, Real
-from foldwing.stability.certificate import Certificate, certify
+from foldwing.maths.arrays import Indices, Mask, Real
+from foldwing.stability.certificate import Certificate, certify, count_unstable
 from foldwing.stability.crossings import (
     Crossings,
     directed,
@@ -29,6 +29,9 @@ FINEST = 2e-5
 
 RESOLUTIONS = 14
 """Most rounds of refining the ray where a branch bends or comes near to the real axis."""
+
+WIDENINGS, WIDTH_SPEEDS = 10, 12
+"""Most times that a region is doubled, and airspeeds at which its roots are compared."""
 
 ATTEMPTS = 3
 """Sweeps, each twice as dense as the one before, after which a case is left uncertified."""
@@ -89,12 +92,36 @@ def sweep(
         Highest reduced frequency swept; by default that of the highest mode at the lowest speed.
     """
     region = sweep_region(problem, speed_range, threshold, highest)
+    if not problem.still_air().apparent_mass:
+        region = _wide_enough(problem, speed_range, region)
     for _ in range(ATTEMPTS):
         result = _sweep_once(problem, speed_range, region)
         if result.certificate.certified:
             break
         region = replace(region, lowest=region.lowest / 4.0, density=region.density * 2.0)
     return result
+
+
+def _wide_enough(
+    problem: AeroelasticProblem, speed_range: tuple[float, float], region: Region
+) -> Region:
+    """Widen the region until four times its size holds no more roots.
+
+    Without apparent mass nothing else bounds how fast a root grows.
+    """
+    speeds = np.geomspace(*speed_range, WIDTH_SPEEDS)
+    counts = []
+    for _ in range(WIDENINGS):
+        counts.append(_count(problem, region, speeds))
+        if len(counts) > 2 and np.array_equal(counts[-1], counts[-3]) and counts[-1].min() >= 0:
+            break
+        region = replace(region, edge=2.0 * region.edge, highest=2.0 * region.highest)
+    return region
+
+
+def _count(problem: AeroelasticProblem, region: Region, speeds: Real) -> Indices:
+    path = follow_path(problem, region.point, region.parameter(), float(speeds[-1]))
+    return count_unstable(problem, path, region, speeds)
 
 
 def _sweep_once(

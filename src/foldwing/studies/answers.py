@@ -35,6 +35,7 @@ def flutter_answer(case: Case) -> Answer:
         "critical": None if index is None else _point(rows[index]),
         "certified": case.analysis.certified,
         "valid_from": case.analysis.speed_range[0],
+        "unstable_from_start": max(case.analysis.unstable_from_start, 0),
         "uncertified_modes": [],  # the sweep of strip theory reaches every mode
         "status": case.status.meaning,
     }
@@ -63,6 +64,7 @@ def _case(outcome: Outcome) -> Answer:
         "critical": None,
         "certified": False,
         "valid_from": None,
+        "unstable_from_start": None,
         "uncertified_modes": [],
         "status": Status.FAILED.meaning,
         "message": outcome.message,

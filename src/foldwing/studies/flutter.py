@@ -59,11 +59,11 @@ def flutter_study(
         highest = float(speeds[-1])
     case = solve_case(model, folds, speed_range(model, highest))
     chosen = picture_speeds(case.analysis) if speeds is None else speeds
-    loci = root_loci(case.system, chosen, case.analysis.sweep)
+    loci = root_loci(case.system, chosen, case.analysis.sweep).by_mode(case.modes.count)
     followed = [FollowedModes(case.modes, np.ones(case.modes.count))]
     grid = surface_grid(model.wing)
     variables = (
-        _padded(mode_variables(followed), shape_variables(followed, grid), len(loci.mode))
+        _padded(mode_variables(followed) | shape_variables(followed, grid), len(loci.mode))
         | _loci_variables(loci, case)
         | table_variables(case.rows(0))
         | _shape_variables(case, grid)
@@ -85,10 +85,10 @@ def flutter_study(
     return build_dataset(variables | contours, coords | contour_coords, attrs), case
 
 
-def _padded(modes: Variables, shapes: Variables, width: int) -> Variables:
+def _padded(variables: Variables, width: int) -> Variables:
     """Widen variables on ``mode`` for branches of real roots, which have no natural mode."""
     result = {}
-    for name, (dims, values) in (modes | shapes).items():
+    for name, (dims, values) in variables.items():
         if "mode" in dims:
             axis = dims.index("mode")
             missing = [(0, 0)] * values.ndim

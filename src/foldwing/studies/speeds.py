@@ -19,6 +19,9 @@ TIMES_DIVERGENCE = 3.0
 LEAST_SPEED, MOST_SPEED = 1e-3, 1e5
 """Airspeeds in m/s beyond which an end of the search is no airspeed of a wing."""
 
+TIMES_SLOWEST = 5.0
+"""A divergence speed beyond this multiple of what follows from `SLOW_MODES` is not waited for."""
+
 SLOW_MODES = 0.02
 """Without divergence it ends where the lowest torsion mode has this reduced frequency."""
 
@@ -54,12 +57,18 @@ def check_highest(highest: float | None) -> None:
 
 def _automatic(model: AeroelasticWing) -> float:
     modes = model.modes((0.0,) * len(model.wing.hinges))
-    divergence = divergence_speeds(model.system(modes))
-    if len(divergence):
-        return _rounded_up(TIMES_DIVERGENCE * float(divergence[0]))
     torsion = [omega for omega, name in zip(modes.omega, modes.names, strict=True) if name == "T1"]
     omega = torsion[0] if torsion else float(modes.omega[-1])
-    return _rounded_up(omega * model.wing.segments[0].half_chord / SLOW_MODES)
+    if omega == 0.0:
+        limit = "the modes kept must include one that is not a rigid motion"
+        remedy = "Keep more modes, or give --max-speed."
+        raise InputError("analysis.system_modes", modes.count, limit, remedy)
+    slowest = _rounded_up(omega * model.wing.segments[0].half_chord / SLOW_MODES)
+    divergence = divergence_speeds(model.system(modes))
+    divergence = divergence[TIMES_DIVERGENCE * divergence < TIMES_SLOWEST * slowest]
+    if len(divergence):
+        return _rounded_up(TIMES_DIVERGENCE * float(divergence[0]))
+    return slowest
 
 
 def _rounded_up(value: float) -> float:

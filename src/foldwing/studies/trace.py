@@ -15,12 +15,15 @@ from foldwing.maths.arrays import Real
 from foldwing.results.schema import build_dataset
 from foldwing.stability.continuation import BoundaryCurve, Limits, follow_boundary
 from foldwing.stability.status import FlutterPoint
-from foldwing.studies.boundary import Boundary
+from foldwing.studies.boundary import NUMERICAL_FAILURES, Boundary
 from foldwing.studies.case import Case
 from foldwing.studies.grid import radians, swept_hinge
 
 ON_CURVE = 0.03
 """Distance from a curve, as relative speed and frequency, below which a point lies on it."""
+
+LARGEST_STEP = 2.5
+"""First step of a curve in degrees, also where the sweep is coarser."""
 
 SPLINE_POINTS = 8
 """Points of the spline for each sample of a curve."""
@@ -46,17 +49,19 @@ class TracedCurve:
     strength: Real
     turning: tuple[float, ...]
 
-    def passes(self, fold: float, point: FlutterPoint, step: float) -> bool:
-        """Return whether the curve passes a flutter point at a fold angle.
+    def passes(self, fold: float, speed: float, frequency: float, step: float) -> bool:
+        """Return whether the curve passes a flutter point.
 
         Its samples are joined by a spline; ``step`` in degrees counts as much as a factor e of
         airspeed or frequency.
         """
         samples = np.column_stack([self.fold / step, np.log(self.speed), np.log(self.frequency)])
-        target = np.array([fold / step, np.log(point.speed), np.log(point.frequency)])
+        target = np.array([fold / step, np.log(speed), np.log(frequency)])
+        width = np.linalg.norm(np.diff(samples, axis=0), axis=1)
+        samples = samples[np.concatenate([[True], width > 0.0])]
         if len(samples) < 2:
             return bool(np.linalg.norm(samples[0] - target) < ON_CURVE)
-        length = np.concatenate([[0.0], np.linalg.norm(np.diff(samples, axis=0), axis=1).cumsum()])
+        length = np.concatenate([[0.0], width[width > 0.0].cumsum()])
         fine = np.linspace(0.0, length[-1], SPLINE_POINTS * len(length))
         start = CubicSpline(length, samples)(fine)
         chord = np.diff(start, axis=0)
@@ -64,6 +69,12 @@ class TracedCurve:
         along = ((target - start) * chord).sum(axis=1) / (chord**2).sum(axis=1)
         nearest = start + np.clip(along, 0.0, 1.0)[:, None] * chord
         return bool(np.linalg.norm(nearest - target, axis=1).min() < ON_CURVE)
+
+    def repeats(self, others: "Sequence[TracedCurve]", step: float) -> bool:
+        """Return whether one of the other curves passes the ends and the middle of this one."""
+        at = (0, len(self.fold) // 2, len(self.fold) - 1)
+        samples = [(self.fold[i], self.speed[i], self.frequency[i], step) for i in at]
+        return any(all(other.passes(*sample) for sample in samples) for other in others)
 
 
 def trace_boundary(
@@ -73,6 +84,8 @@ def trace_boundary(
     progress: Callable[[int], None] = lambda finished: None,
 ) -> list[TracedCurve]:
     """Follow every flutter point of a sweep of one fold angle, each curve once.
+
+    A point that cannot be followed stays without a curve.
 
     Parameters
     ----------
@@ -87,19 +100,28 @@ def trace_boundary(
     family = _family(model, cases, hinge)
     angles = [case.folds[hinge - 2] for case in cases]
     limits = Limits((min(angles), max(angles)), cases[0].analysis.speed_range)
-    step = float(np.median(np.diff(angles)))
+    step = min(float(np.median(np.diff(angles))), LARGEST_STEP)
     left = [
         (angle, case, point)
         for angle, case in zip(angles, cases, strict=True)
         for point in case.analysis.points
         if point.kind == "flutter"
     ]
-    total, curves = len(left), []
+    total = len(left)
+    curves: list[TracedCurve] = []
     while left:
         angle, case, point = left.pop(len(left) // 2)
-        curve = _both_ways(family, angle, (case, point), step, limits)
-        curves.append(curve)
-        left = [entry for entry in left if not curve.passes(entry[0], entry[2], step)]
+        try:
+            curve = _both_ways(family, angle, (case, point), step, limits)
+        except NUMERICAL_FAILURES:
+            continue
+        if not curve.repeats(curves, step):
+            curves.append(curve)
+        left = [
+            (fold, case, point)
+            for fold, case, point in left
+            if not curve.passes(fold, point.speed, point.frequency, step)
+        ]
         progress(total - len(left))
     return curves
 
@@ -129,30 +151,19 @@ def _both_ways(
     at = (angle, point.p.imag, point.speed)
     threshold = case.analysis.threshold
     ahead = follow_boundary(family, at, step, limits, threshold)
-    samples = _samples(ahead, limits)
-    turning = ahead.turning
+    samples, turning = _samples(ahead), ahead.turning
     if ahead.end != "closed":
         behind = follow_boundary(family, at, -step, limits, threshold)
-        samples = np.hstack([_samples(behind, limits)[:, :0:-1], samples])
+        samples = np.hstack([_samples(behind)[:, :0:-1], samples])
         turning = (*behind.turning, *turning)
     fold, k, speed, strength = samples
     frequency = k * speed / (2.0 * np.pi * case.system.half_chord)
     return TracedCurve(fold, speed, frequency, strength, turning)
 
 
-def _samples(curve: BoundaryCurve, limits: Limits) -> Real:
-    """Return fold, k, U and strength along a curve, its last step cut off at the limits."""
-    rows = np.array([curve.parameter, curve.reduced_frequency, curve.speed, curve.strength])
-    if rows.shape[1] < 2:
-        return rows
-    before, after = rows[:, -2], rows[:, -1]
-    share = 1.0
-    for row, (low, high) in ((0, limits.parameter), (2, limits.speed)):
-        edge = np.clip(after[row], low, high)
-        if edge != after[row]:
-            share = min(share, float((edge - before[row]) / (after[row] - before[row])))
-    rows[:, -1] = before + share * (after - before)
-    return rows
+def _samples(curve: BoundaryCurve) -> Real:
+    """Return fold, k, U and strength along a curve, shape (4, m)."""
+    return np.array([curve.parameter, curve.reduced_frequency, curve.speed, curve.strength])
 
 
 def with_curves(
