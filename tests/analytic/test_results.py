@@ -269,7 +269,7 @@ def test_default_folders_are_dated_and_new(tmp_path):
 def test_the_answer_names_the_lowest_onsets():
     assert results.answer(datasets.flutter_dataset()) == (
         "Flutter begins at 14 m/s with 31.9 Hz (mode B2, a hump that ends at 21.5 m/s); "
-        "divergence begins at 36.5 m/s."
+        "flutter again from 31 m/s (mode T1); divergence begins at 36.5 m/s."
     )
     quiet = results.answer(datasets.flutter_dataset([]))
     assert quiet == "No flutter or divergence found up to 40 m/s."

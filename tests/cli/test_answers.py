@@ -8,7 +8,8 @@ import pytest
 NUMBERS = "-?\\d+\\.?\\d*"
 POINT = {"kind", "event", "class", "speed", "frequency", "strength", "mode", "mode_confidence"}
 CASE = {
-    "fold", "flutter_points", "critical", "certified", "valid_from", "uncertified_modes", "status",
+    "fold", "flutter_points", "critical", "certified", "valid_from", "unstable_from_start",
+    "uncertified_modes", "status",
 }  # fmt: skip
 LEVEL = ("--fold3", "level")
 

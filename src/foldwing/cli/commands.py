@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import os
 import sys
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, fields
@@ -174,7 +175,8 @@ def run_modes(request: Request, output: Output) -> None:
     if output.json:
         _print_json(answers[0] if len(answers) == 1 else {"cases": answers})
     else:
-        tables.show_modes(answers)
+        with _shown():
+            tables.show_modes(answers)
     _write(dataset, folder, output)
 
 
@@ -205,7 +207,8 @@ def run_flutter(request: Request, output: Output) -> None:
     if output.json:
         _print_json(flutter_answer(case))
     else:
-        tables.show_flutter(dataset)
+        with _shown():
+            tables.show_flutter(dataset)
     _write(dataset, folder, output)
 
 
@@ -243,7 +246,8 @@ def run_boundary(request: Request, output: Output) -> None:
     if output.json:
         _print_json(boundary_answer(result))
     else:
-        tables.show_boundary(result.dataset)
+        with _shown():
+            tables.show_boundary(result.dataset)
     _write(result.dataset, folder, output)
     tables.name_failures(result.outcomes, result.wanted)
     if result.interrupted or any(outcome.case is None for outcome in result.outcomes):
@@ -276,6 +280,16 @@ def _measured(request: Request, cases: list[tuple[float, ...]]) -> Any:
 
 
 @contextlib.contextmanager
+def _shown() -> Iterator[None]:
+    """Go on without standard output when its reader has gone (``| head``): files come after it."""
+    try:
+        yield
+        sys.stdout.flush()
+    except (BrokenPipeError, SystemExit):  # rich turns the one into the other
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")
+
+
+@contextlib.contextmanager
 def _computing() -> Iterator[None]:
     """Name a numerical failure that left nothing to show."""
     import numpy as np
@@ -299,12 +313,15 @@ def _write(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> No
         return
     from foldwing.results import (
         DATASET_FILE,
+        free_name,
         result_folder,
         write_csv,
         write_dataset,
         write_frequencies_csv,
     )
 
+    if output.out is None:  # another run may have taken the dated name meanwhile
+        folder = free_name(folder)
     with result_folder(folder, output.force) as staging:
         write_dataset(dataset, staging / DATASET_FILE)
         if "natural_frequency" in dataset:
@@ -318,6 +335,7 @@ def _write(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> No
             write_report(dataset, staging / "report.html")
         names = sorted(path.name for path in staging.iterdir() if path.name != "manifest.txt")
     stream = sys.stderr if output.json else sys.stdout
-    print(f"\nWritten to {folder}:", *names, sep="\n  ", file=stream)
-    if output.plot:
-        print(f"\nReport: {folder / 'report.html'}", file=stream)
+    with _shown():
+        print(f"\nWritten to {folder}:", *names, sep="\n  ", file=stream)
+        if output.plot:
+            print(f"\nReport: {folder / 'report.html'}", file=stream)

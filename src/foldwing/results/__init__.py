@@ -11,7 +11,7 @@
 """
 
 from foldwing.results.flutter_table import FlutterRow, flutter_rows, table_variables
-from foldwing.results.folders import check_writable, default_folder, result_folder
+from foldwing.results.folders import check_writable, default_folder, free_name, result_folder
 from foldwing.results.provenance import Source, model_hash, package_version, provenance
 from foldwing.results.schema import VARIABLES, build_dataset, fold_angle_names
 from foldwing.results.summary import answer, certificate
@@ -35,6 +35,7 @@ __all__ = [
     "default_folder",
     "flutter_rows",
     "fold_angle_names",
+    "free_name",
     "model_hash",
     "package_version",
     "provenance",

@@ -38,11 +38,16 @@ def default_folder(
     stem = re.sub(r"[^A-Za-z0-9]+", "-", Path(model_name).stem).strip("-").lower() or "model"
     moment = (now or datetime.now()).strftime("%Y-%m-%d-%H%M%S")
     folder = parent / f"foldwing-{kind}-{stem}-{moment}"
-    suffix = 2
-    while folder.exists():
-        folder = parent / f"foldwing-{kind}-{stem}-{moment}-{suffix}"
+    return free_name(folder)
+
+
+def free_name(folder: Path) -> Path:
+    """Return the folder, or the first of ``folder-2``, ``folder-3`` ... that does not exist."""
+    free, suffix = folder, 2
+    while free.exists():
+        free = folder.with_name(f"{folder.name}-{suffix}")
         suffix += 1
-    return folder
+    return free
 
 
 def check_writable(path: Path, force: bool = False) -> None:
@@ -91,6 +96,8 @@ def result_folder(path: Path, force: bool = False) -> Iterator[Path]:
 
 def _check_place(path: Path, force: bool) -> None:
     """Raise unless ``path`` is free, empty, or a result that may be replaced."""
+    if Path.cwd().is_relative_to(path.absolute()):
+        raise OutputError(f"{path}: is the folder you work in. Choose a new one for --out.")
     with _naming(path):
         if not path.exists():
             return
