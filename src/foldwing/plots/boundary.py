@@ -81,7 +81,8 @@ def boundary_map(dataset: "xarray.Dataset") -> Picture | None:
     return Picture(
         "boundary-map",
         "The lowest airspeed at which the wing becomes unstable, over two fold angles",
-        subtitle(dataset) + ". Empty cells: no flutter or divergence found, or no result.",
+        f"{subtitle(dataset)}. {_over_others(names)}"
+        "Empty cells: no flutter or divergence found, or no result.",
         [
             Panel(
                 angle_label(names[0]),
@@ -91,6 +92,12 @@ def boundary_map(dataset: "xarray.Dataset") -> Picture | None:
             )
         ],
     )
+
+
+def _over_others(names: Sequence[str]) -> str:
+    """Return what the map shows when more than two fold angles vary."""
+    others = " and ".join(name.removeprefix("fold_") for name in names[2:])
+    return f"Each cell is the lowest over all angles of hinge {others}. " if others else ""
 
 
 def _top(dataset: "xarray.Dataset", rows: Sequence[FlutterRow]) -> float:

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 PANEL_INCHES = 2.6
 """Height of a panel whose relative height is 1."""
+ROUND_OFF = 1e-6
+"""Growth below this fraction of the largest decay is none."""
 _TEXT_INCHES = 0.155
 """Line spacing of labels."""
 
@@ -146,12 +148,28 @@ def focused(growth: Array, depth: float) -> Range:
     if not finite.size:
         return (-1.0, 1.0)
     low, high = padded(finite)
-    if finite.max() <= 0:
+    if finite.max() <= ROUND_OFF * abs(finite.min()):
         return (low, max(high, 0.08 * (high - low)))
     top = 1.15 * float(finite.max())
     return (max(low, -depth * top), top)
 
 
 def subtitle(dataset: "xarray.Dataset", *more: str) -> str:
-    """Return the model and the method, for the line below a title."""
-    return " · ".join(filter(None, (dataset.attrs["title"], dataset.attrs["method"], *more)))
+    """Return the model, the method and the damping, for the line below a title."""
+    parts = (dataset.attrs["title"], dataset.attrs["method"], *_damping(dataset), *more)
+    return " · ".join(filter(None, parts))
+
+
+def threshold(dataset: "xarray.Dataset") -> float:
+    """Return the damping ratio of the boundary, positive stable."""
+    return float(dataset.attrs.get("damping_threshold", 0.0))
+
+
+def _damping(dataset: "xarray.Dataset") -> list[str]:
+    """Return structural damping and threshold in words, where they are not zero."""
+    words = []
+    if damping := float(dataset.attrs.get("damping", 0.0)):
+        words.append(f"structural damping ratio {damping:g}")
+    if limit := threshold(dataset):
+        words.append(f"boundary at damping ratio {limit:g}".replace("-", "−"))
+    return words

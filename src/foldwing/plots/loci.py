@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from foldwing.plots.events import color_of, event_marks, words
-from foldwing.plots.layout import dash_of, end_labels, focused, subtitle, upright_labels
+from foldwing.plots.layout import dash_of, end_labels, focused, subtitle, threshold, upright_labels
 from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import (
     Area,
@@ -63,13 +63,20 @@ def against_speed(dataset: "xarray.Dataset") -> Picture | None:
         "growth-and-frequency",
         "How the motions of the wing grow or decay as the airspeed rises",
         subtitle(dataset, fold_text(dataset, 0)) + ". Above zero (shaded) a motion grows by "
-        "itself: the wing is unstable. Vertical lines mark the exact speeds where that changes.",
+        f"itself: the wing is unstable. Vertical lines mark the exact speeds {_where(dataset)}.",
         [
             Panel(label, "growth rate (1/s)", upper, limits, growth_range, height=1.1),
             Panel(label, "frequency (Hz)", lower, limits, (-0.03 * top, top), height=1.1),
         ],
         right_margin=0.6,
     )
+
+
+def _where(dataset: "xarray.Dataset") -> str:
+    limit = threshold(dataset)
+    if limit == 0.0:
+        return "where that changes"
+    return f"where a damping ratio passes {limit:g}".replace("-", "−")
 
 
 def root_locus(dataset: "xarray.Dataset") -> Picture | None:

@@ -25,7 +25,7 @@ _STYLE = """
 :root { color-scheme: light dark; LIGHT }
 @media (prefers-color-scheme: dark) { :root { DARK } }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 60rem; padding: 1.5rem 1rem 4rem; background: var(--paper);
+body { margin: 0 auto; max-width: 66rem; padding: 1.5rem 1rem 4rem; background: var(--paper);
   color: var(--ink); font: 16px/1.5 system-ui, "Segoe UI", Helvetica, Arial, sans-serif; }
 h1 { font-size: 1.6rem; margin: 0; line-height: 1.25; }
 h2 { font-size: 1.15rem; margin: 2.6rem 0 .2rem; line-height: 1.3; }
@@ -35,8 +35,9 @@ h2 { font-size: 1.15rem; margin: 2.6rem 0 .2rem; line-height: 1.3; }
 .scroll { overflow: auto; max-height: 32rem; }
 table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
 th { text-align: left; position: sticky; top: 0; background: var(--paper); font-weight: 600; }
-th, td { padding: .25rem .9rem .25rem 0; border-bottom: 1px solid var(--grid);
+th, td { padding: .25rem .7rem .25rem 0; border-bottom: 1px solid var(--grid);
   white-space: nowrap; }
+th { white-space: normal; vertical-align: bottom; }
 td.number, th.number { text-align: right; }
 pre { background: color-mix(in srgb, var(--grid) 45%, transparent); padding: .8rem;
   overflow: auto; font-size: .85rem; border-radius: 4px; }

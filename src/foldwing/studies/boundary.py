@@ -14,7 +14,7 @@ from foldwing.results.schema import build_dataset
 from foldwing.stability.status import Status
 from foldwing.structure.following import FollowedModes, follow_modes
 from foldwing.studies.case import Case, solve_case
-from foldwing.studies.flutter import METHODS
+from foldwing.studies.flutter import METHODS, search_attributes
 from foldwing.studies.grid import radians, swept_hinge
 from foldwing.studies.measured import Measured
 from foldwing.studies.modes import fold_coordinates, mode_variables
@@ -129,7 +129,7 @@ def boundary_study(
         METHODS[model.aerodynamics],
         source.options,
     )
-    attrs["speed_limit"] = speeds[1]
+    attrs |= search_attributes(model, speeds)
     attrs |= {} if hinge is None else {"swept": f"fold_{hinge}"}
     if len(outcomes) < len(cases):
         attrs["interrupted"] = f"{len(outcomes)} of {len(cases)} cases finished"

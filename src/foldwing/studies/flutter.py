@@ -81,7 +81,7 @@ def flutter_study(
         METHODS[model.aerodynamics],
         source.options,
     )
-    attrs["speed_limit"] = case.analysis.speed_range[1]
+    attrs |= search_attributes(model, case.analysis.speed_range)
     return build_dataset(variables | contours, coords | contour_coords, attrs), case
 
 
@@ -142,6 +142,16 @@ def _shape_variables(case: Case, grid: SurfaceGrid) -> Variables:
         largest = flat[np.arange(len(flat)), np.abs(flat).argmax(axis=1)]
         shapes = shapes / largest[:, None, None]
     return {"flutter_shape": (("flutter_point", "point", "axis"), shapes)}
+
+
+def search_attributes(model: AeroelasticWing, speeds: tuple[float, float]) -> Variables:
+    """Return the attributes that say what was searched."""
+    analysis = model.wing.analysis
+    return {
+        "speed_limit": speeds[1],
+        "damping": analysis.damping,
+        "damping_threshold": analysis.damping_threshold,
+    }
 
 
 def case_variables(cases: list[Case]) -> Variables:

@@ -3,6 +3,7 @@
 import contextlib
 import csv
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,10 @@ import numpy as np
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
 from foldwing.model import example_text, measurement_names
+from foldwing.studies.grid import swept_hinge
+
+OFF_THE_WAY = 1.0
+"""Degrees between a measured fold angle and that of the sweep that are too many."""
 
 REMEDY = (
     "Write a CSV file whose header has fold_2 (and fold_3 ...) in degrees and speed in m/s, "
@@ -55,6 +60,29 @@ class Measured:
             "measured_frequency": (dims, self.columns.get("frequency", missing)),
         }
         return variables, {"measured": (dims, np.arange(count))}
+
+    def check_cases(self, cases: Sequence[tuple[float, ...]]) -> None:
+        """Raise `InputError` unless every point lies on the way of a sweep of fold angles."""
+        hinge = swept_hinge(cases)
+        if hinge is None:
+            limit = "needs a sweep of fold angles to lie over"
+            remedy = "Add a range, such as --fold2 0:150:2.5."
+            raise InputError("--measured", self.source, limit, remedy)
+        self.variables(hinge)
+        way = np.array(sorted(cases, key=lambda case: case[hinge - 2]))
+        for other in range(2, way.shape[1] + 2):
+            name = f"fold_{other}"
+            if name not in self.columns or len(np.unique(way[:, hinge - 2])) < len(way):
+                continue
+            fold = self.columns[f"fold_{hinge}"]
+            expected = np.interp(fold, way[:, hinge - 2], way[:, other - 2])
+            inside = (fold >= way[0, hinge - 2]) & (fold <= way[-1, hinge - 2])
+            off = np.abs(self.columns[name] - expected) > OFF_THE_WAY
+            if (inside & off).any():
+                row = int(np.flatnonzero(inside & off)[0])
+                limit = f"{name} = {self.columns[name][row]:g} deg is not on the way of the sweep"
+                remedy = "Leave out points of other fold angles, or sweep theirs."
+                raise InputError("--measured", self.source, limit, remedy)
 
 
 def read_measured(source: str) -> Measured:
