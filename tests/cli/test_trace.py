@@ -37,3 +37,13 @@ def test_a_grid_of_two_folds_has_no_curves(cli):
     assert answer.status == 2
     assert "--trace" in answer.err
     assert "single swept fold angle" in answer.err
+
+
+def test_damping_and_threshold_are_followed_too(cli):
+    answer = cli(
+        "boundary", "three-segment", "--fold2", "90:150:10", "--fold3", "level", "--json",
+        "--trace", "--damping", "0.01", "--damping-threshold", "0.02",
+    )  # fmt: skip
+    assert answer.status == 0
+    assert len(answer.json["cases"]) == 7
+    assert all(case["unstable_from_start"] > 0 for case in answer.json["cases"])

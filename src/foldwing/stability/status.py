@@ -1,4 +1,4 @@
-"""Status values and the results that every stability solver shares."""
+"""Status values, spectra and flutter points."""
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -22,7 +22,7 @@ class Status(IntEnum):
     ABSENT = 5
     """The branch does not exist at this airspeed."""
     FAILED = 6
-    """The computation raised an error, which is named in the log of the run."""
+    """The computation raised an error, whose message stands beside."""
 
     @property
     def meaning(self) -> str:
@@ -32,7 +32,7 @@ class Status(IntEnum):
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Eigenvalues of a matrix function, the same fields for every solver.
+    """Eigenvalues of a matrix function with all that tells how far they can be trusted.
 
     Attributes
     ----------

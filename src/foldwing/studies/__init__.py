@@ -2,9 +2,13 @@
 
 ===========  ==================================================================================
 `grid`       ranges, fold angles and speeds as a grid of cases
+`speeds`     airspeeds when the user names none
+`case`       one wing at given fold angles, solved
 `modes`      natural frequencies and shapes
 `flutter`    eigenvalues against airspeed and flutter points of one case
 `boundary`   flutter points against fold angle
+`trace`      the boundary as continuous curves
+`shapes`     points at which motions are drawn
 `measured`   measured points to lay over a picture
 `answers`    the same results as plain numbers, for JSON
 ===========  ==================================================================================
