@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from foldwing.maths.arrays import Complex, Real
-from foldwing.maths.bessel import theodorsen_with_derivative
+from foldwing.maths.bessel import theodorsen, theodorsen_with_derivative
 from foldwing.model import Segment
 
 
@@ -126,15 +126,17 @@ class StripModel:
             rows += [sum(s.lag for s in alike), sum(s.lag_rate for s in alike) / b]
         return np.array(rows, dtype=complex).reshape(len(rows), n * n)
 
-    def _lag(self, p: Complex, chord: float) -> tuple[Complex, Complex]:
-        if not self.lag:
-            return np.ones_like(p), np.zeros_like(p)
-        ratio = chord / self.half_chord
-        C, dC = theodorsen_with_derivative(p * ratio)
-        return C, ratio * dC
+    def _factors(self, p: Complex) -> Complex:
+        """Return what the terms are multiplied by, shape (m, terms)."""
+        value = np.empty((len(p), len(self._terms)), complex)
+        value[:, 0], value[:, 1], value[:, 2] = 1.0, p, p * p
+        for number, chord in enumerate(self._chords):
+            C = theodorsen(p * (chord / self.half_chord)) if self.lag else np.ones_like(p)
+            value[:, 3 + 2 * number], value[:, 4 + 2 * number] = C, p * C
+        return value
 
-    def _factors(self, p: Complex) -> tuple[Complex, Complex]:
-        """Return what the terms are multiplied by and its derivative, each (m, terms)."""
+    def _factors_and_slopes(self, p: Complex) -> tuple[Complex, Complex]:
+        """Return the factors of the terms and their derivatives, each (m, terms)."""
         value, slope = np.zeros((2, len(p), len(self._terms)), complex)
         value[:, 0], value[:, 1], value[:, 2] = 1.0, p, p * p
         slope[:, 1], slope[:, 2] = 1.0, 2.0 * p
@@ -146,16 +148,22 @@ class StripModel:
             value[:, column], value[:, column + 1] = C, p * C
         return value, slope
 
+    def _lag(self, p: Complex, chord: float) -> tuple[Complex, Complex]:
+        if not self.lag:
+            return np.ones_like(p), np.zeros_like(p)
+        ratio = chord / self.half_chord
+        C, dC = theodorsen_with_derivative(p * ratio)
+        return C, ratio * dC
+
     def forces(self, p: Complex) -> Complex:
         """Return Qhat at the values ``p`` of shape (m,), as an array (m, n, n)."""
         p = np.asarray(p, complex)
-        value, _ = self._factors(p)
-        return (value @ self._terms).reshape(len(p), self.size, self.size)
+        return (self._factors(p) @ self._terms).reshape(len(p), self.size, self.size)
 
     def forces_with_derivative(self, p: Complex) -> tuple[Complex, Complex]:
         """Return Qhat and dQhat/dp, each of shape (m, n, n); the latter is not finite at p = 0."""
         p = np.asarray(p, complex)
-        value, slope = self._factors(p)
+        value, slope = self._factors_and_slopes(p)
         shape = (len(p), self.size, self.size)
         with np.errstate(invalid="ignore"):
             return (value @ self._terms).reshape(shape), (slope @ self._terms).reshape(shape)

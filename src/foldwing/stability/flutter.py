@@ -10,7 +10,7 @@ from foldwing.stability.certificate import Certificate
 from foldwing.stability.newton import Roots
 from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.real_axis import mergers, real_axis_path
-from foldwing.stability.status import FlutterPoint, Status
+from foldwing.stability.status import FlutterPoint
 from foldwing.stability.sweep import Sweep, sweep
 
 CRITICAL_EVENTS = ("onset", "merger")
@@ -134,7 +134,6 @@ def _real_points(
             strength=float("nan"),
             vector=roots.right[i],
             residual=float(roots.residual[i]),
-            status=Status.OK,
             mode=int(mode[i]),
             mode_confidence=float(share[i]),
         )

@@ -80,7 +80,6 @@ class FlutterPoint:
         Right null vector of T, unit 2-norm.
     residual : float
         2-norm of T x over the 1-norm of T.
-    status : Status
     branch : int
         Points of one root share this number; -1 when the branch is not known.
     classification : str
@@ -101,7 +100,6 @@ class FlutterPoint:
     strength: float
     vector: Complex
     residual: float
-    status: Status = Status.OK
     branch: int = -1
     classification: str = ""
     mode: int = -1

@@ -13,7 +13,7 @@ from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.status import Status
 from foldwing.structure.following import FollowedModes, follow_modes
-from foldwing.studies.case import Case, solve_case
+from foldwing.studies.case import Case, solve_case, verdict_variables
 from foldwing.studies.flutter import METHODS, search_attributes
 from foldwing.studies.grid import radians, swept_hinge
 from foldwing.studies.measured import Measured
@@ -211,14 +211,6 @@ def _followed(model: AeroelasticWing, cases: Sequence[Case]) -> list[FollowedMod
 
 
 def _verdicts(outcomes: Sequence[Outcome]) -> Variables:
-    fold = ("fold",)
-    certified = [o.case is not None and o.case.analysis.certified for o in outcomes]
-    lowest = [np.nan if o.case is None else o.case.analysis.speed_range[0] for o in outcomes]
-    already = [-1 if o.case is None else o.case.analysis.unstable_from_start for o in outcomes]
-    return {
-        "certified": (fold, np.array(certified)),
-        "case_status": (fold, np.array([int(o.status) for o in outcomes])),
-        "valid_from": (fold, np.array(lowest)),
-        "unstable_from_start": (fold, np.array(already)),
-        "message": (fold, np.array([o.message for o in outcomes], dtype=np.str_)),
-    }
+    messages = np.array([outcome.message for outcome in outcomes], dtype=np.str_)
+    verdicts = verdict_variables([outcome.case for outcome in outcomes])
+    return verdicts | {"message": (("fold",), messages)}

@@ -1,6 +1,8 @@
 """One case: a wing at given fold angles, its modes and all its flutter points."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -84,3 +86,17 @@ def solve_case(
     system = model.system(modes)
     threshold = model.wing.analysis.damping_threshold
     return Case(folds, modes, system, find_flutter(system, speed_range, threshold))
+
+
+def verdict_variables(cases: Sequence[Case | None]) -> dict[str, Any]:
+    """Return what is known of each case as a whole, as dataset variables; None for a failed one."""
+    fold = ("fold",)
+    status = [Status.FAILED if case is None else case.status for case in cases]
+    lowest = [np.nan if case is None else case.analysis.speed_range[0] for case in cases]
+    already = [-1 if case is None else case.analysis.unstable_from_start for case in cases]
+    return {
+        "certified": (fold, np.array([value is Status.OK for value in status])),
+        "case_status": (fold, np.array([int(value) for value in status])),
+        "valid_from": (fold, np.array(lowest)),
+        "unstable_from_start": (fold, np.array(already)),
+    }

@@ -12,7 +12,7 @@ from foldwing.results.schema import build_dataset
 from foldwing.stability.contours import determinant_map
 from foldwing.stability.loci import RootLoci, root_loci
 from foldwing.structure.following import FollowedModes
-from foldwing.studies.case import Case, solve_case
+from foldwing.studies.case import Case, solve_case, verdict_variables
 from foldwing.studies.modes import fold_coordinates, mode_variables, shape_variables
 from foldwing.studies.shapes import SurfaceGrid, surface_grid
 from foldwing.studies.speeds import picture_speeds, speed_range
@@ -67,7 +67,7 @@ def flutter_study(
         | _loci_variables(loci, case)
         | table_variables(case.rows(0))
         | _shape_variables(case, grid)
-        | case_variables([case])
+        | verdict_variables([case])
     )
     coords = fold_coordinates([folds]) | grid.coordinates()
     coords["speed"] = (("speed",), chosen)
@@ -151,20 +151,6 @@ def search_attributes(model: AeroelasticWing, speeds: tuple[float, float]) -> Va
         "speed_limit": speeds[1],
         "damping": analysis.damping,
         "damping_threshold": analysis.damping_threshold,
-    }
-
-
-def case_variables(cases: list[Case]) -> Variables:
-    """Return what is known of each case as a whole."""
-    fold = ("fold",)
-    return {
-        "certified": (fold, np.array([case.analysis.certified for case in cases])),
-        "case_status": (fold, np.array([int(case.status) for case in cases])),
-        "valid_from": (fold, np.array([case.analysis.speed_range[0] for case in cases])),
-        "unstable_from_start": (
-            fold,
-            np.array([case.analysis.unstable_from_start for case in cases]),
-        ),
     }
 
 
