@@ -1,5 +1,6 @@
 """V-g and p-k methods: exact where the damping vanishes, and honest about their accuracy."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,6 +34,7 @@ class Oscillator:
     d: float = 0.0
     size: int = 1
     half_chord: float = 1.0
+    highest_frequency: float = math.inf
 
     @property
     def mass(self):

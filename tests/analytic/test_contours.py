@@ -1,5 +1,6 @@
 """Determinant contours against certified roots and functions with known zeros."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,6 +26,7 @@ class Scalar:
     f: object
     size: int = 1
     half_chord: float = 1.0
+    highest_frequency: float = math.inf
 
     def pencil(self, p):
         return Pencil(np.zeros((1, 1), complex), None, self.f(p)[:, None, None])

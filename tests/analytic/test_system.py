@@ -4,12 +4,14 @@ Evidence: the modal equation written with lambda, finite differences, the eigenv
 matrix where the aerodynamics are polynomials, and the apparent mass of a uniform wing.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
 import scipy.linalg
 
+from foldwing.aerodynamics.schemes import EXACT, TimeScheme
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.stability.flutter import find_flutter
@@ -34,6 +36,8 @@ class PolynomialAir:
     Q1: np.ndarray
     Q2: np.ndarray
     half_chord: float = 0.5
+    highest_frequency: float = math.inf
+    scheme: TimeScheme = EXACT
 
     @property
     def size(self):

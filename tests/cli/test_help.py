@@ -12,7 +12,8 @@ import pytest
 import foldwing
 
 OF_A_MODEL = {"--fold", "--fold-of", "--basis", "--plot", "--no-plot", "--out", "--force", "--json"}
-OF_A_SEARCH = {"--max-speed", "--aero", "--damping", "--damping-threshold"}
+OF_AN_AIRSTREAM = {"--aero", "--panels", "--gap", "--drop-mode"}
+OF_A_SEARCH = OF_AN_AIRSTREAM | {"--max-speed", "--damping", "--damping-threshold"}
 OPTIONS = {
     "examples": {"--copy"},
     "schema": set(),

@@ -163,6 +163,7 @@ TABLES = [
     ("point_mass", table("point_mass"), set()),
     ("air", table("air"), set()),
     ("analysis", table("analysis"), set()),
+    ("lattice", table("lattice"), set()),
 ]
 
 
@@ -177,6 +178,8 @@ def test_every_key_is_described(heading, model, elsewhere):
             assert unit == {"degrees": "degree"}.get(kind.bare, kind.unit or "1"), key
         if field.is_required():
             assert default == "required", key
+        elif isinstance(field.default, bool):
+            assert default == str(field.default).lower(), key
         elif isinstance(field.default, int | float):
             assert float(default) == field.default, key
         elif isinstance(field.default, str):

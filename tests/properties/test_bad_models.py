@@ -50,8 +50,8 @@ CASES = [
     (SPAN, "spam = 1", f"{FIRST}.spam", 1, "not a known key", "Did you mean span?"),
     ("[air]", "[airs]", "airs", "a table of 1 keys", "not a known key", "Did you mean air?"),
     ("damping =", "dampin =", "analysis.dampin", 0.01, "not a known key", "Did you mean damping?"),
-    ("fold =", "angle =", f"{BEYOND}.angle", 30, "not a known key", "fold, springs, spacing"),
-    ('title = "two segments"', "[lattice]", "lattice", "a table of 0 keys", "not a known", "Known"),
+    ("fold =", "angle =", f"{BEYOND}.angle", 30, "not a known key", "fold, gap, springs, spacing"),
+    ('title = "two segments"', "[trellis]", "trellis", "a table of 0 keys", "not a known", "Known"),
     # Missing, zero and negative
     (SPAN, "", f"{FIRST}.span", MISSING, "greater than 0 m", "Add span"),
     (CHORD, "", f"{FIRST}.chord", MISSING, "greater than 0 m", "Add chord"),

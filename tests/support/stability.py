@@ -1,5 +1,6 @@
 """Wings as stability problems, problems with exact roots, a plain count of unstable roots."""
 
+import math
 from dataclasses import dataclass
 from functools import cache, cached_property
 
@@ -72,6 +73,7 @@ class Polynomials:
     quadratic: tuple
     linear: tuple = ()
     half_chord: float = 1.0
+    highest_frequency: float = math.inf
 
     @property
     def size(self):

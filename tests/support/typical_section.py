@@ -1,5 +1,6 @@
 """Small problems with known answers, offered through the port of the stability solvers."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -50,6 +51,7 @@ class TypicalSection:
     pitch_frequency: float = 5 / 2
     damping_ratio: float = 0.0
     half_chord: float = 1.0
+    highest_frequency: float = math.inf
 
     @property
     def size(self) -> int:
@@ -129,6 +131,11 @@ class ManySections:
     def half_chord(self) -> float:
         """Half chord of all sections."""
         return self.sections[0].half_chord
+
+    @property
+    def highest_frequency(self) -> float:
+        """No limit."""
+        return math.inf
 
     @property
     def mass(self) -> Real:

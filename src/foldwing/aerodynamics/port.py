@@ -2,6 +2,7 @@
 
 from typing import Protocol
 
+from foldwing.aerodynamics.schemes import TimeScheme
 from foldwing.maths.arrays import Complex, Real
 
 
@@ -19,6 +20,14 @@ class AerodynamicModel(Protocol):
     @property
     def half_chord(self) -> float:
         """Reference length b of p in metres."""
+
+    @property
+    def highest_frequency(self) -> float:
+        """Reduced frequency Im p up to which the model holds; infinite without a limit."""
+
+    @property
+    def scheme(self) -> TimeScheme:
+        """How time derivatives are taken, by the structure too: exact in continuous time."""
 
     def forces(self, p: Complex) -> Complex:
         """Return Qhat at the values ``p`` of shape (m,), as an array (m, n, n)."""

@@ -10,12 +10,14 @@ NACA Report 496, whose h is positive down), C = C(p) and the lift slope c:
 where ' is d/dt. A segment whose half chord b_i is not the reference b sees its own p b_i / b.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from foldwing.aerodynamics.schemes import EXACT, TimeScheme
 from foldwing.maths.arrays import Complex, Real
 from foldwing.maths.bessel import theodorsen, theodorsen_with_derivative
 from foldwing.model import Segment
@@ -107,6 +109,16 @@ class StripModel:
     def size(self) -> int:
         """Number n of modes."""
         return len(self.segments[0].lag)
+
+    @property
+    def highest_frequency(self) -> float:
+        """No limit: Theodorsen's function holds at any reduced frequency."""
+        return math.inf
+
+    @property
+    def scheme(self) -> TimeScheme:
+        """Continuous time."""
+        return EXACT
 
     @cached_property
     def _chords(self) -> tuple[float, ...]:

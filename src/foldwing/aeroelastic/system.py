@@ -4,10 +4,12 @@ With unit modal mass, natural frequencies omega and structural damping ratio zet
 
     T(p, U) = diag(omega^2) + U (p/b) diag(2 zeta omega) - U^2 B(p),    B = Qhat(p) - (p/b)^2 I.
 
-Rows and columns are divided by omega, so that all entries are of order one. A mode without
-stiffness has no constant term: its column is divided by U^2. A *neutral* motion, without stiffness
-and without steady aerodynamic force (a free flap), is an exact zero root at every airspeed: it is
-rotated to stand apart and its column is divided by p as well, so that T keeps only the other roots.
+A discrete-time aerodynamic model replaces p and (p/b)^2 where they stand for time derivatives
+(`foldwing.aerodynamics.schemes`). Rows and columns are divided by omega, so that all entries are of
+order one. A mode without stiffness has no constant term: its column is divided by U^2. A *neutral*
+motion, without stiffness and without steady aerodynamic force (a free flap), is an exact zero root
+at every airspeed: it is rotated to stand apart and its column is divided by p as well, so that T
+keeps only the other roots.
 """
 
 from dataclasses import dataclass
@@ -50,6 +52,11 @@ class AeroelasticSystem:
     def half_chord(self) -> float:
         """Reference length b of p = lambda b / U in metres."""
         return self.aerodynamics.half_chord
+
+    @property
+    def highest_frequency(self) -> float:
+        """Reduced frequency up to which the aerodynamic model holds."""
+        return self.aerodynamics.highest_frequency
 
     @cached_property
     def rigid(self) -> Mask:
@@ -106,9 +113,9 @@ class AeroelasticSystem:
     def pencil(self, p: Complex) -> Pencil:
         """Return the coefficients of T at the values ``p``, shape (m,)."""
         p = np.asarray(p, complex)
-        ratio = (p / self.half_chord)[:, None, None]
-        minus_B = self._in_coordinates(self.aerodynamics.forces(p), ratio**2)
-        damping = None if self._damping is None else ratio * self._damping
+        rates = self.aerodynamics.scheme.rates(p / self.half_chord)
+        minus_B = self._in_coordinates(self.aerodynamics.forces(p), _stacked(rates.inertia))
+        damping = None if self._damping is None else _stacked(rates.rate) * self._damping
         if not self.rigid.any():
             return Pencil(self._stiffness, damping, minus_B)
         constant = np.where(self.rigid, minus_B, self._stiffness)
@@ -119,14 +126,14 @@ class AeroelasticSystem:
         """Return the coefficients of T and their derivatives with respect to p."""
         p = np.asarray(p, complex)
         b = self.half_chord
-        ratio = (p / b)[:, None, None]
+        rates, slopes = self.aerodynamics.scheme.rates_with_derivative(p / b)
         Q, dQ = self.aerodynamics.forces_with_derivative(p)
-        minus_B = self._in_coordinates(Q, ratio**2)
-        slope = self._in_coordinates(dQ, (2.0 / b) * ratio)
+        minus_B = self._in_coordinates(Q, _stacked(rates.inertia))
+        slope = self._in_coordinates(dQ, _stacked(slopes.inertia) / b)
         damping, damping_slope = None, None
         if self._damping is not None:
-            damping = ratio * self._damping
-            damping_slope = np.broadcast_to(self._damping / b, damping.shape).astype(complex)
+            damping = _stacked(rates.rate) * self._damping
+            damping_slope = _stacked(slopes.rate) / b * self._damping
         if self.rigid.any():
             return self._with_rigid_columns(p, (minus_B, slope), (damping, damping_slope))
         zero = np.zeros_like(self._stiffness)
@@ -177,3 +184,8 @@ class AeroelasticSystem:
             columns=elastic,
             apparent_mass=apparent is not None,
         )
+
+
+def _stacked(values: Complex) -> Complex:
+    """Return m numbers as factors of m matrices."""
+    return values[:, None, None]

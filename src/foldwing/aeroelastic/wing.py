@@ -1,18 +1,40 @@
 """From a wing to its aeroelastic system: what depends on the fold angles and what does not."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
+from foldwing.aerodynamics.lattice import (
+    SegmentMesh,
+    Strips,
+    closeness,
+    folded_strips,
+    mesh_segments,
+)
 from foldwing.aerodynamics.port import AerodynamicModel
 from foldwing.aerodynamics.strip import StripForces, strip_forces, strip_model
+from foldwing.aerodynamics.unsteady import (
+    Influence,
+    LatticeModel,
+    PanelMotion,
+    lattice_model,
+    load_length,
+)
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.errors import InputError
+from foldwing.maths.arrays import Real
 from foldwing.maths.quadrature import gauss_rule
 from foldwing.model import Wing
 from foldwing.structure.assembly import Assembly, assemble
+from foldwing.structure.component import ComponentModes
 from foldwing.structure.modes import StructuralModes, natural_modes
 
-AERODYNAMIC_MODELS = ("strip", "quasi-steady")
+TOUCHING, CLOSE = 1e-3, 0.1
+"""Distance of segments, in widths of a strip, below which a lattice is refused or doubtful."""
+
+AERODYNAMIC_MODELS = ("strip", "quasi-steady", "lattice")
 """Names of the aerodynamic models, the default first."""
 
 
@@ -25,27 +47,44 @@ class AeroelasticWing:
     wing : Wing
     aerodynamics : str
         One of ``AERODYNAMIC_MODELS``.
+    dropped : tuple of str
+        Names of natural modes to leave out, such as ``B2``.
 
     Raises
     ------
     InputError
-        When there is no such aerodynamic model.
+        When there is no such aerodynamic model, or a discrete-time lattice has unequal chords.
     """
 
     wing: Wing
     aerodynamics: str = "strip"
+    dropped: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        """Refuse unknown aerodynamics."""
+        """Refuse unknown aerodynamics, and time steps that fit no chord."""
         if self.aerodynamics not in AERODYNAMIC_MODELS:
             limit = f"must be one of: {', '.join(AERODYNAMIC_MODELS)}"
             remedy = f"The default is {AERODYNAMIC_MODELS[0]}."
             raise InputError("aerodynamics", self.aerodynamics, limit, remedy)
+        scheme = self.wing.lattice.scheme
+        if self.aerodynamics == "lattice" and scheme != "exact" and not self.equal_chords:
+            limit = "a discrete-time scheme needs segments of equal chord"
+            raise InputError("lattice.scheme", scheme, limit, 'Take scheme = "exact".')
+
+    @property
+    def equal_chords(self) -> bool:
+        """Whether all segments have the same chord."""
+        return len({segment.chord for segment in self.wing.segments}) == 1
 
     @cached_property
     def assembly(self) -> Assembly:
         """Segments joined, without fold angles."""
         return assemble(self.wing)
+
+    @property
+    def half_chord(self) -> float:
+        """Reference length b of p in metres: the half chord of segment 1."""
+        return self.wing.segments[0].half_chord
 
     @cached_property
     def _strips(self) -> tuple[StripForces, ...]:
@@ -56,16 +95,117 @@ class AeroelasticWing:
             forces.append(strip_forces(segment, density, weights, *component.section_motion(y)))
         return tuple(forces)
 
+    @cached_property
+    def meshes(self) -> tuple[SegmentMesh, ...]:
+        """Panels of every segment in its own plane."""
+        return mesh_segments(self.wing)
+
+    @cached_property
+    def _load_lengths(self) -> tuple[Real, ...]:
+        return tuple(load_length(mesh, self.wing.lattice.scheme) for mesh in self.meshes)
+
+    @cached_property
+    def _panel_motions(self) -> tuple[PanelMotion, ...]:
+        """Motion of the panels of each segment in the segment's own coordinates."""
+        parts = zip(self.assembly.components, self.meshes, self._load_lengths, strict=True)
+        return tuple(_panel_motion(*part) for part in parts)
+
     def modes(self, fold_angles: tuple[float, ...] | None = None) -> StructuralModes:
-        """Return the natural modes at the fold angles psi_2 .. psi_N in radians."""
-        return natural_modes(self.assembly, fold_angles)
+        """Return the natural modes at the fold angles psi_2 .. psi_N in radians.
+
+        Raises
+        ------
+        InputError
+            When a mode to leave out does not exist, or none would remain.
+        """
+        modes = natural_modes(self.assembly, fold_angles)
+        return modes.without(self.dropped) if self.dropped else modes
+
+    def strips(self, modes: StructuralModes) -> Strips:
+        """Return the strips of the vortex lattice on the folded wing."""
+        return folded_strips(self.meshes, modes.origins, modes.rotations)
+
+    def warning(self, modes: StructuralModes) -> str:
+        """Return what makes the aerodynamics doubtful in words, empty when nothing does.
+
+        Raises
+        ------
+        InputError
+            When segments of a vortex lattice lie on each other.
+        """
+        if self.aerodynamics != "lattice":
+            return ""
+        near = closeness(self.strips(modes))
+        pair = f"segments {near.segment + 1} and {near.other + 1}"
+        if near.ratio < TOUCHING:
+            folds = ", ".join(f"{math.degrees(angle):g}" for angle in modes.fold_angles)
+            limit = f"{pair} lie on each other, {1e3 * near.distance:.2g} mm apart"
+            remedy = "A vortex lattice cannot be folded flat: change the angle by some degrees."
+            raise InputError("fold", folds, limit, remedy)
+        if near.ratio < CLOSE:
+            return (
+                f"{pair} come within {1e3 * near.distance:.2g} mm of each other, "
+                f"{near.ratio:.2g} widths of a strip: the lattice is inaccurate there."
+            )
+        return ""
+
+    def influence(self, modes: StructuralModes) -> Influence:
+        """Return the influence of the vortices of the folded wing and its wake."""
+        lattice = self.wing.lattice
+        rows = max(1, round(lattice.wake * lattice.chordwise))
+        return Influence(self.strips(modes), lattice.chordwise, rows, lattice.image)
+
+    def panel_motion(self, modes: StructuralModes) -> PanelMotion:
+        """Return the motion of all panels per unit modal coordinate."""
+        count = modes.count
+        parts = [
+            [part.reshape(self.wing.lattice.chordwise, -1, count) for part in motion.projected(q)]
+            for motion, q in zip(self._panel_motions, modes.by_segment, strict=True)
+        ]
+        joined = (
+            np.concatenate(part, axis=1).reshape(-1, count) for part in zip(*parts, strict=True)
+        )
+        return PanelMotion(*joined)
+
+    @cached_property
+    def load_lengths(self) -> Real:
+        """Length behind each bound vortex that its growing circulation loads, shape (panels,)."""
+        columns = [
+            np.repeat(length[:, None], len(mesh.middle), axis=1)
+            for length, mesh in zip(self._load_lengths, self.meshes, strict=True)
+        ]
+        return np.concatenate(columns, axis=1).ravel()
+
+    def lattice(self, modes: StructuralModes) -> LatticeModel:
+        """Return the vortex lattice for the modes."""
+        return lattice_model(
+            self.influence(modes),
+            self.panel_motion(modes),
+            self.load_lengths,
+            self.wing.air.density,
+            self.half_chord,
+            self.wing.lattice,
+        )
 
     def aerodynamic_model(self, modes: StructuralModes) -> AerodynamicModel:
         """Return the aerodynamic forces of the modes."""
-        half_chord = self.wing.segments[0].half_chord
+        if self.aerodynamics == "lattice":
+            return self.lattice(modes)
         lag = self.aerodynamics == "strip"
-        return strip_model(self._strips, modes.by_segment, half_chord, lag)
+        return strip_model(self._strips, modes.by_segment, self.half_chord, lag)
 
     def system(self, modes: StructuralModes) -> AeroelasticSystem:
         """Return the aeroelastic problem of the modes in the airstream."""
         return AeroelasticSystem(modes.omega, self.aerodynamic_model(modes), modes.damping)
+
+
+def _panel_motion(component: ComponentModes, mesh: SegmentMesh, length: Real) -> PanelMotion:
+    """Return the motion of the panels of one segment, normal to it, in its coordinates."""
+    collocation, vortex = mesh.station(0.75), mesh.station(0.25)
+    return PanelMotion(
+        component.slopes(*mesh.points(collocation))[:, 0],
+        *(
+            component.displacement(*mesh.points(station))[:, 2]
+            for station in (collocation, vortex, vortex + length / 2.0)
+        ),
+    )

@@ -3,6 +3,7 @@
 import contextlib
 import json
 import os
+import re
 import sys
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, fields
@@ -41,6 +42,9 @@ class Request:
     fold_of: list[str] | None = None
     basis: str | None = None
     aero: str = "strip"
+    drop_mode: list[str] | None = None
+    panels: str | None = None
+    gap: str | None = None
     damping: float | None = None
     damping_threshold: float | None = None
     max_speed: float | None = None
@@ -64,6 +68,7 @@ class Request:
             "damping_threshold": self.damping_threshold,
         }
         given = {key: value for key, value in changes.items() if value is not None}
+        wing = self._meshed(wing)
         try:
             return wing.with_analysis(**given) if given else wing
         except InputError as problem:
@@ -71,6 +76,26 @@ class Request:
             raise InputError(
                 f"--{key.replace('_', '-')}", problem.value, problem.limit, problem.remedy
             ) from None
+
+    def _meshed(self, wing: Wing) -> Wing:
+        """Return the wing with the panels and gaps of the options."""
+        if self.panels is not None:
+            count = re.fullmatch(r"(\d{1,6})[x×](\d{1,6})", self.panels.strip())
+            limit = "must be panels along the chord, x, strips along the span"
+            if count is None:
+                raise InputError("--panels", self.panels, limit, "Write for example --panels 8x30.")
+            with _as_option("--panels"):
+                wing = wing.with_lattice(chordwise=int(count[1]), spanwise=int(count[2]))
+        if self.gap is not None:
+            with _as_option("--gap"):
+                wing = wing.with_gaps(_bare_or_text(self.gap))
+        return wing
+
+    def model_of(self, wing: Wing) -> "AeroelasticWing":
+        """Return the wing with the aerodynamics asked for."""
+        from foldwing.aeroelastic.wing import AeroelasticWing
+
+        return AeroelasticWing(wing, self.aero, tuple(self.drop_mode or ()))
 
     def cases(self, wing: Wing) -> list[tuple[float, ...]]:
         """Return the fold angles in degrees of every case."""
@@ -107,6 +132,22 @@ class Output:
         folder = self.out or default_folder(kind, model)
         check_writable(folder, self.force)
         return folder
+
+
+@contextlib.contextmanager
+def _as_option(option: str) -> Iterator[None]:
+    """Name the option where a value that it gave cannot be used."""
+    try:
+        yield
+    except InputError as problem:
+        raise InputError(option, problem.value, problem.limit, problem.remedy) from None
+
+
+def _bare_or_text(value: str) -> float | str:
+    try:
+        return float(value)
+    except ValueError:
+        return value
 
 
 def _by_hinge(texts: list[str]) -> dict[int, str]:
@@ -186,7 +227,6 @@ def run_flutter(request: Request, output: Output) -> None:
     wing = request.wing(text)
     folds = request.one_case(wing)
 
-    from foldwing.aeroelastic.wing import AeroelasticWing
     from foldwing.results import Source
     from foldwing.studies.answers import flutter_answer
     from foldwing.studies.flutter import flutter_study
@@ -198,7 +238,7 @@ def run_flutter(request: Request, output: Output) -> None:
     folder = output.folder("flutter", request.model)
     with _computing():
         dataset, case = flutter_study(
-            AeroelasticWing(wing, request.aero),
+            request.model_of(wing),
             folds,
             speeds=speeds,
             highest=request.max_speed,
@@ -219,7 +259,6 @@ def run_boundary(request: Request, output: Output) -> None:
     cases = request.cases(wing)
     measured = _measured(request, cases)
 
-    from foldwing.aeroelastic.wing import AeroelasticWing
     from foldwing.results import Source
     from foldwing.studies.answers import boundary_answer
     from foldwing.studies.boundary import boundary_study
@@ -230,7 +269,7 @@ def run_boundary(request: Request, output: Output) -> None:
     if request.trace:
         check_traceable(cases)
     folder = output.folder("boundary", request.model)
-    model = AeroelasticWing(wing, request.aero)
+    model = request.model_of(wing)
     with _computing(), tables.progress("Fold angles", len(cases)) as advance:
         result = boundary_study(
             model,

@@ -48,11 +48,36 @@ MaxSpeed = Annotated[
     ),
 ]
 Aero = Annotated[
-    Literal["strip", "quasi-steady"],
+    Literal["strip", "quasi-steady", "lattice"],
     typer.Option(
         "--aero",
         metavar="NAME",
-        help="strip (Theodorsen's theory) or quasi-steady (for comparison).",
+        help="strip (Theodorsen's theory), lattice (unsteady vortex lattice) or quasi-steady (for "
+        "comparison).",
+    ),
+]
+DropMode = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--drop-mode",
+        metavar="NAME",
+        help="Leave a natural mode out, such as B2, to see what it does. May be repeated.",
+    ),
+]
+Panels = Annotated[
+    str | None,
+    typer.Option(
+        "--panels",
+        metavar="CxS",
+        help="Lattice: panels along the chord and strips along the span, 8x30; not the model's.",
+    ),
+]
+Gap = Annotated[
+    str | None,
+    typer.Option(
+        "--gap",
+        metavar="WIDTH",
+        help='Lattice: opening between the segments at all hinges, "1 mm"; not the model\'s.',
     ),
 ]
 Basis = Annotated[

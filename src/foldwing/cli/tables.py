@@ -63,7 +63,7 @@ def show_modes(answers: Sequence[dict[str, Any]]) -> None:
 def show_flutter(dataset: "xarray.Dataset") -> None:
     """Print the answer, the table of flutter points and the certificate of one case."""
     from foldwing.results import flutter_rows
-    from foldwing.results.summary import answer, certificate
+    from foldwing.results.summary import answer
 
     rows = flutter_rows(dataset)
     table = _table("U m/s", "f Hz", "kind", "event", "class", "mode", "S s/m")
@@ -79,13 +79,21 @@ def show_flutter(dataset: "xarray.Dataset") -> None:
     span = f"{len(speeds)} speeds from {speeds[0]:.4g} to {speeds[-1]:.4g} m/s"
     span = span if len(speeds) > 1 else f"at {speeds[0]:.4g} m/s"
     console.print(f"\nCurves: {span}; flutter sought up to {dataset.attrs['speed_limit']:.4g} m/s.")
-    console.print(_plain(certificate(dataset)))
+    _conclude(console, dataset)
+
+
+def _conclude(console: Console, dataset: "xarray.Dataset") -> None:
+    """Print what is certified and what is doubtful."""
+    from foldwing.results.summary import certificate, warnings
+
+    for text in filter(None, (certificate(dataset), warnings(dataset))):
+        console.print(_plain(text))
 
 
 def show_boundary(dataset: "xarray.Dataset") -> None:
     """Print the critical point of every case, the answer and the certificate."""
     from foldwing.results import flutter_rows, fold_angle_names
-    from foldwing.results.summary import answer, certificate, failed_cases
+    from foldwing.results.summary import answer, failed_cases
 
     hinges, failed = fold_angle_names(dataset), set(failed_cases(dataset))
     brief = dataset.sizes["fold"] > MOST_ROWS
@@ -108,7 +116,7 @@ def show_boundary(dataset: "xarray.Dataset") -> None:
     console.print(_plain(f"\n{answer(dataset)}"))
     if dataset.attrs.get("turning"):
         console.print(f"The boundary turns back at {dataset.attrs['turning']} deg.")
-    console.print(_plain(certificate(dataset)))
+    _conclude(console, dataset)
 
 
 def _critical_cells(rows: "Sequence[FlutterRow]") -> list[str]:

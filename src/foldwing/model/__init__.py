@@ -23,7 +23,7 @@ from foldwing.model.library import (
     measurement_names,
 )
 from foldwing.model.material import Material, strip_inertia, strip_properties
-from foldwing.model.parts import Air, Analysis, Hinge, HingeKind, PointMass, Segment
+from foldwing.model.parts import Air, Analysis, Hinge, HingeKind, Lattice, PointMass, Segment
 from foldwing.model.reader import model_text, parse_model, read_model
 from foldwing.model.schema import json_schema
 from foldwing.model.wing import Wing
@@ -34,6 +34,7 @@ __all__ = [
     "ExampleInfo",
     "Hinge",
     "HingeKind",
+    "Lattice",
     "Material",
     "PointMass",
     "Segment",

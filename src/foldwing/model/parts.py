@@ -4,13 +4,14 @@ import math
 from enum import StrEnum
 from typing import Annotated, Literal, Self
 
-from pydantic import model_validator
+from pydantic import StrictBool, model_validator
 
 from foldwing.model.faults import fault
 from foldwing.model.quantities import (
     Angle,
     ChordFraction,
     Count,
+    Counts,
     DampingRatio,
     DampingThreshold,
     Density,
@@ -22,7 +23,9 @@ from foldwing.model.quantities import (
     Mass,
     MassPerSpan,
     Position,
+    Relaxation,
     SectionStiffness,
+    WakeLength,
 )
 from foldwing.model.record import Record
 
@@ -126,6 +129,9 @@ class Hinge(Record):
     fold : float
         Fold angle psi in rad, positive folding the outboard part up. Given in degrees, or as text
         with a unit.
+    gap : float
+        Width in m of the opening between the two segments, half of it on either side of the hinge
+        line. The structure has none; the vortex lattice leaves it open.
     """
 
     kind: HingeKind = HingeKind.SPRING
@@ -133,6 +139,7 @@ class Hinge(Record):
     springs: Annotated[int, Count(1, MOST_SPRINGS)] = 1
     spacing: Distance = 0.0
     fold: Angle = 0.0
+    gap: Distance = 0.0
 
     @model_validator(mode="after")
     def _stiffness_suits_kind(self) -> Self:
@@ -205,3 +212,44 @@ class Analysis(Record):
     basis: Literal["free-free", "converged"] = "free-free"
     damping: DampingRatio = 0.0
     damping_threshold: DampingThreshold = 0.0
+
+
+MOST_PANELS = 1000
+"""Largest number of panels along a chord, or of strips along a segment."""
+
+
+class Lattice(Record):
+    """The mesh of the vortex lattice, its wake, and how it takes time derivatives.
+
+    Attributes
+    ----------
+    chordwise : int
+        Panels along the chord of every segment.
+    spanwise : int or tuple of int
+        Strips along the whole wing, shared out by span; or those of each segment.
+    wake : float
+        Length of the wake in chords.
+    relaxation : float
+        Factor below 1 by which the circulation gathered in the last row of the wake fades in each
+        step.
+    image : bool
+        Whether a wall at the root mirrors the flow, as for a symmetric aircraft.
+    spacing : str
+        "uniform", "cosine" (denser at the ends of each segment) or "inset" (uniform, ending a
+        quarter of a strip before a free edge).
+    gap_refinement : int
+        How often the strip beside a gap is halved towards it.
+    scheme : str
+        "exact", or a discrete-time scheme for comparison: "average" (trapezoidal), "literal"
+        (velocity at the end of the step) or "printed" (literal, with the unsteady load of three
+        quarters of a panel's own circulation).
+    """
+
+    chordwise: Annotated[int, Count(1, MOST_PANELS)] = 8
+    spanwise: Annotated[int | tuple[int, ...], Counts(1, MOST_PANELS)] = 30
+    wake: WakeLength = 20.0
+    relaxation: Relaxation = 0.0
+    image: StrictBool = False
+    spacing: Literal["uniform", "cosine", "inset"] = "uniform"
+    gap_refinement: Annotated[int, Count(0, 10)] = 2
+    scheme: Literal["exact", "average", "literal", "printed"] = "exact"

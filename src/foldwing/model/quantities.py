@@ -245,6 +245,34 @@ def _json_bounds(bounds: Bounds) -> dict[str, float]:
     return {word: value for word, value in keywords.items() if value is not None}
 
 
+@dataclass(frozen=True)
+class Counts:
+    """A whole number, or a list of whole numbers, between two limits, both included."""
+
+    least: int
+    most: int
+
+    def parse(self, value: object) -> int | tuple[int, ...]:
+        """Return the value, a list as a tuple, or raise the fault that names limit and remedy."""
+        one = Count(self.least, self.most)
+        if isinstance(value, list | tuple) and value:
+            return tuple(one.parse(part) for part in value)
+        return one.parse(value)
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Validate with `parse`."""
+        return core_schema.no_info_plain_validator_function(self.parse)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """Return the JSON schema: an integer or a list of them."""
+        one = {"type": "integer", "minimum": self.least, "maximum": self.most}
+        return {"anyOf": [one, {"type": "array", "items": one, "minItems": 1}]}
+
+
 _POSITIVE = Bounds(above=0.0)
 _NOT_NEGATIVE = Bounds(at_least=0.0)
 
@@ -282,3 +310,7 @@ DampingRatio = Annotated[
 DampingThreshold = Annotated[
     float, Quantity("a damping ratio", "", "0.02", Bounds(above=-0.5, below=0.5))
 ]
+WakeLength = Annotated[
+    float, Quantity("a number of chords", "", "20", Bounds(above=0, at_most=1e4))
+]
+Relaxation = Annotated[float, Quantity("a factor", "", "0.99", Bounds(at_least=0, below=1))]

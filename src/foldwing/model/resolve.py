@@ -36,6 +36,7 @@ def resolved(model: ModelFile) -> Wing:
             point_masses=model.point_mass,
             air=model.air,
             analysis=model.analysis,
+            lattice=model.lattice,
         )
 
 
@@ -120,4 +121,4 @@ def _hinge(table: HingeTable, index: int) -> Hinge:
         hinge = Hinge(
             kind=kind, stiffness=springs * stiffness, springs=springs, spacing=table.spacing or 0.0
         )
-    return hinge.model_copy(update={"fold": table.fold})
+    return hinge.model_copy(update={"fold": table.fold, "gap": table.gap})

@@ -6,7 +6,7 @@ from pydantic import Field, StrictBool, model_validator
 
 from foldwing.model.faults import fault
 from foldwing.model.material import Material
-from foldwing.model.parts import MOST_SPRINGS, Air, Analysis, PointMass
+from foldwing.model.parts import MOST_SPRINGS, Air, Analysis, Lattice, PointMass
 from foldwing.model.quantities import (
     Angle,
     ChordFraction,
@@ -36,6 +36,7 @@ class HingeTable(Record):
     """
 
     fold: Angle = 0.0
+    gap: Distance = 0.0
     springs: Annotated[int, Count(1, MOST_SPRINGS)] | None = None
     spacing: Distance | None = None
     stiffness: HingeStiffness | None = None
@@ -136,6 +137,7 @@ class ModelFile(Record):
     point_mass: tuple[PointMass, ...] = ()
     air: Air = Air()
     analysis: Analysis = Analysis()
+    lattice: Lattice = Lattice()
 
 
 def json_schema() -> dict[str, Any]:

@@ -7,10 +7,11 @@ from pydantic import model_validator
 
 from foldwing.errors import InputError
 from foldwing.model.faults import Path, as_input_error, fault, shown
-from foldwing.model.parts import Air, Analysis, Hinge, PointMass, Segment
+from foldwing.model.parts import Air, Analysis, Hinge, Lattice, PointMass, Segment
 from foldwing.model.quantities import ANGLE, Bounds, Quantity
 from foldwing.model.record import Record
 
+GAP = Quantity("a length", "m", '"1 mm"', Bounds(at_least=0.0))
 IMBALANCE = Quantity("a static imbalance", "", "0.1", Bounds(at_least=0.0))
 
 _ROUND_OFF = 1e-9
@@ -32,6 +33,8 @@ class Wing(Record):
         What the wing moves in.
     analysis : Analysis
         How it is analysed.
+    lattice : Lattice
+        Mesh of the vortex lattice.
     title : str
         For reports.
     """
@@ -41,6 +44,7 @@ class Wing(Record):
     point_masses: tuple[PointMass, ...] = ()
     air: Air = Air()
     analysis: Analysis = Analysis()
+    lattice: Lattice = Lattice()
     title: str = ""
 
     @model_validator(mode="after")
@@ -54,6 +58,8 @@ class Wing(Record):
             self._check_springs(index)
         for index, mass in enumerate(self.point_masses):
             self._check_point_mass(index, mass)
+        self._check_gaps()
+        self._check_strips()
         return self
 
     def _check_springs(self, index: int) -> None:
@@ -77,6 +83,26 @@ class Wing(Record):
             limit = f"must lie on segment {mass.segment}, 0 to {span:g} m"
             remedy = "Measure y from the inboard edge of that segment."
             raise fault((*where, "y"), mass.y, limit, remedy)
+
+    def _check_gaps(self) -> None:
+        for index, segment in enumerate(self.segments):
+            sides = [i for i in (index - 1, index) if 0 <= i < len(self.hinges)]
+            taken = sum(self.hinges[i].gap for i in sides) / 2.0
+            if taken >= segment.span:
+                widest = max(sides, key=lambda i: self.hinges[i].gap)
+                limit = f"gaps must leave some of the {segment.span:g} m of segment {index + 1}"
+                remedy = "Half of a gap lies on either side of its hinge: make it narrower."
+                raise fault(("hinges", widest, "gap"), self.hinges[widest].gap, limit, remedy)
+
+    def _check_strips(self) -> None:
+        strips = self.lattice.spanwise
+        if isinstance(strips, tuple) and len(strips) != self.count:
+            limit = f"this wing has {self.count} segments"
+            remedy = "Give one number of strips for each segment, or one for the whole wing."
+            raise fault(("lattice", "spanwise"), str(list(strips)), limit, remedy)
+        if isinstance(strips, int) and strips < self.count:
+            limit = f"must be at least one strip for each of {self.count} segments"
+            raise fault(("lattice", "spanwise"), strips, limit, "Give a larger number.")
 
     @property
     def count(self) -> int:
@@ -125,6 +151,17 @@ class Wing(Record):
         with as_input_error(("analysis",)):
             analysis = Analysis.model_validate(self.analysis.model_dump() | changes)
         return self._with(analysis=analysis)
+
+    def with_lattice(self, **changes: object) -> Self:
+        """Return this wing with some values of its lattice changed, ``chordwise=16``."""
+        with as_input_error(("lattice",)):
+            lattice = Lattice.model_validate(self.lattice.model_dump() | changes)
+        return self._with(lattice=lattice)
+
+    def with_gaps(self, width: float | str) -> Self:
+        """Return this wing with gaps of one width (m, or text with a unit) at all hinges."""
+        gap = GAP.read(width, "gap")
+        return self._with(hinges=tuple(h.model_copy(update={"gap": gap}) for h in self.hinges))
 
     def with_air(self, density: float | str) -> Self:
         """Return this wing in air of another density (kg/m^3, or text with a unit)."""

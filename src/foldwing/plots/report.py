@@ -12,7 +12,7 @@ from foldwing.plots.interactive import figure
 from foldwing.plots.palette import THEMES
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
-from foldwing.results.summary import answer, certificate, degrees
+from foldwing.results.summary import answer, certificate, degrees, warnings
 
 if TYPE_CHECKING:
     import xarray
@@ -140,8 +140,8 @@ def _section(number: int, picture: "Picture") -> str:
 
 
 def _certificate(dataset: "xarray.Dataset") -> list[str]:
-    text = certificate(dataset)
-    return [f'<p class="small">{html.escape(text)}</p>'] if text else []
+    texts = filter(None, (certificate(dataset), warnings(dataset)))
+    return [f'<p class="small">{html.escape(text)}</p>' for text in texts]
 
 
 def _table(dataset: "xarray.Dataset") -> list[str]:

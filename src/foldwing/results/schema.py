@@ -111,8 +111,9 @@ _CASES = (
     _row("certified", _FOLD, "", "all unstable eigenvalues were found at every airspeed", "truth"),
     _row("case_status", _FOLD, "1", "how the computation of the case ended", "status"),
     _row("valid_from", _FOLD, "m/s", "lowest airspeed for which the result holds"),
+    _row("uncertified_modes", _FOLD, "", "modes not resolved at the lowest airspeeds", "text"),
     _row("unstable_from_start", _FOLD, "1", "unstable roots at the lowest airspeed", "integer"),
-    _row("message", _FOLD, "", "message of a failed case", "text"),
+    _row("message", _FOLD, "", "why the case failed or is doubtful", "text"),
 )
 
 _POINTS = (

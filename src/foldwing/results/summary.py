@@ -108,7 +108,7 @@ def _unstable_from_start(dataset: "xarray.Dataset") -> str:
     already = dataset["unstable_from_start"].values > 0
     if not already.any():
         return ""
-    lowest = float(np.nanmax(dataset["valid_from"].values))
+    lowest = float(dataset.attrs.get("speed_floor", np.nanmax(dataset["valid_from"].values)))
     if dataset.sizes["fold"] > 1:
         who = f"{int(already.sum())} of {already.size} cases are"
         return f"{who} beyond the boundary from the lowest airspeed, {lowest:.3g} m/s, on. "
@@ -191,6 +191,36 @@ def _validity(dataset: "xarray.Dataset") -> str:
     lowest = dataset["valid_from"].values
     lowest = lowest[np.isfinite(lowest)]
     return f", from {lowest.max():.3g} m/s on" if lowest.size else ""
+
+
+def warnings(dataset: "xarray.Dataset") -> str:
+    """Return what makes results doubtful, case by case: modes not resolved, remarks."""
+    if "certified" not in dataset:
+        return ""
+    parts = [_unresolved(dataset)]
+    if "message" in dataset:
+        failed = set(failed_cases(dataset))
+        remarks = dataset["message"].values.tolist()
+        parts += [
+            f"{fold_text(dataset, case) or 'This wing'}: {remark}"
+            for case, remark in enumerate(remarks)
+            if remark and case not in failed
+        ]
+    return " ".join(filter(None, parts))
+
+
+def _unresolved(dataset: "xarray.Dataset") -> str:
+    """Return which modes are too fast for the aerodynamic model at low airspeed, and the remedy."""
+    if "uncertified_modes" not in dataset:
+        return ""
+    named = [text.split(", ") for text in dataset["uncertified_modes"].values.tolist() if text]
+    if not named:
+        return ""
+    modes = ", ".join(dict.fromkeys(name for names in named for name in names))
+    return (
+        f"Below that the lattice does not resolve the modes {modes}: their flutter points there "
+        "would not be found. More panels along the chord lower the limit."
+    )
 
 
 def _case_list(dataset: "xarray.Dataset", cases: Sequence[int], most: int = 12) -> str:

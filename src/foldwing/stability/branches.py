@@ -16,11 +16,16 @@ from foldwing.stability.tracking import (
     StillAirRoots,
     advance,
     branches_at,
+    resolved_speed,
     still_air_roots,
 )
 
 MEETING = 1e-6
 """Relative difference of eigenvalues at which a followed root has met a crossing."""
+
+
+MARGIN = 2.0
+"""A root is followed down to this multiple of the airspeed below which it is not resolved."""
 
 
 @dataclass(frozen=True)
@@ -34,8 +39,8 @@ class Origin:
     mode : array of int, shape (m,)
         Column of T.
     confidence : array, shape (m,)
-        1 when the root was followed down to the lowest airspeed; else the share of kinetic energy
-        that the mode has at the crossing.
+        1 when the root was followed down to the lowest airspeed that resolves it; else the share of
+        kinetic energy that the mode has at the crossing.
     """
 
     branch: Indices
@@ -63,7 +68,7 @@ def trace_origins(problem: AeroelasticProblem, roots: Roots, lowest: float) -> O
     for index in order:
         new = start.take(np.array([index]))
         if followed is not None:
-            followed = advance(problem, followed, float(roots.speed[index]))
+            followed = _lowered(problem, followed, float(roots.speed[index]))
             same = _meeting(followed, new)
             if same is not None:
                 branch[branch == branch[members[same]]] = branch[index]
@@ -73,13 +78,19 @@ def trace_origins(problem: AeroelasticProblem, roots: Roots, lowest: float) -> O
         members.append(int(index))
     mode, confidence = energy_modes(problem, roots.right)
     if followed is not None:
-        followed = advance(problem, followed, lowest)
+        followed = _lowered(problem, followed, lowest)
         named, sure = _named(problem, followed)
         for member, column, certain in zip(members, named, sure, strict=True):
             if certain:
                 alike = branch == branch[member]
                 mode[alike], confidence[alike] = column, 1.0
     return Origin(_renumbered(branch), mode, confidence)
+
+
+def _lowered(problem: AeroelasticProblem, followed: Branches, speed: float) -> Branches:
+    """Follow branches down to an airspeed, or to where they are still well resolved."""
+    lowest = MARGIN * resolved_speed(problem, followed.eigenvalue)
+    return advance(problem, followed, np.minimum(followed.speed, np.maximum(speed, lowest)))
 
 
 def _joined(first: Branches, second: Branches) -> Branches:

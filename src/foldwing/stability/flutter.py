@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldwing.maths.arrays import Mask
+from foldwing.maths.arrays import Mask, Real
 from foldwing.stability.branches import energy_modes, trace_origins
 from foldwing.stability.certificate import Certificate
 from foldwing.stability.newton import Roots
@@ -12,6 +12,7 @@ from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.real_axis import mergers, real_axis_path
 from foldwing.stability.status import FlutterPoint
 from foldwing.stability.sweep import Sweep, sweep
+from foldwing.stability.tracking import resolved_speed, still_air_roots
 
 CRITICAL_EVENTS = ("onset", "merger")
 
@@ -31,6 +32,9 @@ class FlutterAnalysis:
     threshold : float
         Damping ratio of the boundary, positive stable.
     sweep : Sweep
+    lowest_resolved : array, shape (n,)
+        Airspeed in m/s below which the model cannot resolve a column of T; 0 without a limit, and
+        for columns without stiffness.
     """
 
     points: tuple[FlutterPoint, ...]
@@ -38,6 +42,17 @@ class FlutterAnalysis:
     speed_range: tuple[float, float]
     threshold: float
     sweep: Sweep
+    lowest_resolved: Real
+
+    @property
+    def unresolved(self) -> tuple[int, ...]:
+        """Columns of T whose motions at rest are too fast for the model at the lowest airspeed."""
+        return tuple(np.flatnonzero(self.lowest_resolved > self.speed_range[0]).tolist())
+
+    @property
+    def valid_from(self) -> float:
+        """Airspeed in m/s from which on every mode is resolved and sought."""
+        return max(self.speed_range[0], float(self.lowest_resolved.max(initial=0.0)))
 
     @property
     def certified(self) -> bool:
@@ -85,7 +100,22 @@ def find_flutter(
     )
     merged = _real_points(problem, double, ["merger"] * len(double.p))
     points = sorted([*flutter, *divergence, *merged], key=lambda point: point.speed)
-    return FlutterAnalysis(tuple(points), result.certificate, speed_range, threshold, result)
+    return FlutterAnalysis(
+        tuple(points),
+        result.certificate,
+        speed_range,
+        threshold,
+        result,
+        _lowest_resolved(problem),
+    )
+
+
+def _lowest_resolved(problem: AeroelasticProblem) -> Real:
+    """Return the airspeed below which each column of T is beyond what the problem holds for."""
+    rest = still_air_roots(problem)
+    lowest = np.zeros(problem.size)
+    lowest[rest.mode] = resolved_speed(problem, rest.eigenvalue)
+    return lowest
 
 
 def _flutter_points(

@@ -64,6 +64,10 @@ class AeroelasticProblem(Protocol):
     def half_chord(self) -> float:
         """Reference length b of p = lambda b / U in metres."""
 
+    @property
+    def highest_frequency(self) -> float:
+        """Reduced frequency Im p up to which T is meaningful; infinite without a limit."""
+
     def pencil(self, p: Complex) -> Pencil:
         """Return the coefficients of T at the values ``p``, shape (m,)."""
 

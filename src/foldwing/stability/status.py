@@ -23,6 +23,9 @@ class Status(IntEnum):
     """The branch does not exist at this airspeed."""
     FAILED = 6
     """The computation raised an error, whose message stands beside."""
+    UNRESOLVED = 7
+    """The root oscillates too fast at this airspeed for the aerodynamic model: take more panels
+    along the chord."""
 
     @property
     def meaning(self) -> str:

@@ -56,14 +56,15 @@ def sweep_region(
     """Return the region that holds every unstable root between two airspeeds.
 
     The lowest reduced frequency is that of the lowest mode at the top speed, at most 0.004; the
-    highest is 1.2 times that of the highest mode at the lowest speed, plus 0.2.
+    highest is 1.2 times that of the highest mode at the lowest speed, plus 0.2, but never beyond
+    what the problem holds for.
     """
     slow, fast = speed_range
     omega = still_air_frequencies(problem)
     b = problem.half_chord
     lowest = min(0.004, 0.5 * b * float(omega[0]) / fast)
     top = 1.2 * float(omega[-1]) * b / slow + 0.2 if highest is None else highest
-    return Region(threshold, lowest, top)
+    return Region(threshold, lowest, min(top, problem.highest_frequency))
 
 
 def still_air_frequencies(problem: AeroelasticProblem) -> Real:

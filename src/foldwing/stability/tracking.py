@@ -33,6 +33,9 @@ SAME_ROOT = 1e-7
 NEAR_REAL = 0.2
 """A branch lost with |Im| below this fraction of its modulus has reached the real axis."""
 
+FAR_BEYOND = 1.5
+"""Multiple of the highest reduced frequency at which a branch is no longer followed."""
+
 SMALLEST_STEP_NEAR_REAL = 0.02
 """The same for a branch near the real axis, which it meets with ever steeper slope."""
 
@@ -142,8 +145,13 @@ def still_air_roots(problem: AeroelasticProblem) -> StillAirRoots:
     return StillAirRoots(values[order], full, air.columns[columns])
 
 
+def resolved_speed(problem: AeroelasticProblem, eigenvalue: Complex) -> Real:
+    """Return the airspeed in m/s below which a root lies beyond what the problem holds for."""
+    return np.abs(eigenvalue.imag) * problem.half_chord / problem.highest_frequency
+
+
 def advance(
-    problem: AeroelasticProblem, branches: Branches, target: float, first_step: float = 1.0
+    problem: AeroelasticProblem, branches: Branches, target: float | Real, first_step: float = 1.0
 ) -> Branches:
     """Follow every living branch to the airspeed ``target``.
 
@@ -151,12 +159,13 @@ def advance(
     ----------
     problem : AeroelasticProblem
     branches : Branches
-    target : float
+    target : float or array, shape (r,)
         Airspeed in m/s, above or below the present ones.
     first_step : float
         First step as a fraction of the way.
     """
-    way = target - branches.speed
+    end = np.broadcast_to(np.asarray(target, float), branches.speed.shape)
+    way = end - branches.speed
     size = np.full(len(way), first_step)
     done = np.where(way == 0.0, 1.0, 0.0)
     state = replace(branches, confidence=np.ones(len(way)))
@@ -167,7 +176,7 @@ def advance(
         length = np.minimum(size[active], 1.0 - done[active])
         now = state.take(active)
         last = done[active] + length >= 1.0 - 1e-12
-        speed = np.where(last, target, now.speed + length * way[active])
+        speed = np.where(last, end[active], now.speed + length * way[active])
         new, good, easy = _step(problem, now, speed, np.where(last, TOLERANCE, ON_THE_WAY))
         state = state.put(active[good], new.take(np.flatnonzero(good)))
         done[active[good]] = np.where(last, 1.0, done[active] + length)[good]
@@ -258,7 +267,7 @@ def track(problem: AeroelasticProblem, speeds: Real) -> Loci:
     """
     start = still_air_roots(problem)
     branches = _launched(problem, start, float(speeds[-1]))
-    moving = record(problem, branches, speeds[speeds > 0.0])
+    moving = record(problem, branches, speeds[speeds > 0.0], branches.speed)
     resting = int(np.count_nonzero(speeds == 0.0))
     shape = (resting, len(start.mode))
     return Loci(
@@ -271,28 +280,50 @@ def track(problem: AeroelasticProblem, speeds: Real) -> Loci:
     )
 
 
-def record(problem: AeroelasticProblem, branches: Branches, speeds: Real) -> Loci:
-    """Follow branches through positive airspeeds, ascending or descending, and write them down."""
+def record(
+    problem: AeroelasticProblem, branches: Branches, speeds: Real, since: Real | float = 0.0
+) -> Loci:
+    """Follow branches through positive airspeeds, ascending or descending, and write them down.
+
+    Parameters
+    ----------
+    problem : AeroelasticProblem
+    branches : Branches
+    speeds : array, shape (u,)
+        In m/s.
+    since : float or array, shape (r,)
+        Airspeed below which a branch is beyond what the problem holds for.
+    """
     shape = (len(speeds), len(branches.speed))
     values, residual = np.full(shape, complex(np.nan, 0.0)), np.full(shape, np.nan)
     confidence, status = np.zeros(shape), np.zeros(shape, int)
     for row, speed in enumerate(speeds):
-        branches = _advanced_apart(problem, branches, float(speed))
-        alive = branches.alive
+        ready = np.flatnonzero(speed >= since + 0.0 * branches.speed)
+        there = _advanced_apart(problem, branches.take(ready), float(speed))
+        branches = _resolved(problem, branches.put(ready, there))
+        beyond = speed < np.maximum(since, resolved_speed(problem, branches.eigenvalue))
+        alive = branches.alive & ~beyond
         values[row, alive] = branches.eigenvalue[alive]
         residual[row, alive] = branches.residual[alive]
         confidence[row, alive] = branches.confidence[alive]
-        status[row] = branches.status
+        status[row] = np.where(branches.alive & beyond, Status.UNRESOLVED, branches.status)
     unknown = np.full(shape[1], -1)
     return Loci(np.asarray(speeds, float), values, residual, confidence, status, unknown)
 
 
 def _launched(problem: AeroelasticProblem, start: StillAirRoots, fastest: float) -> Branches:
     """Return the branches at a first airspeed so small that the still-air roots still hold."""
-    speed = np.full(len(start.eigenvalue), 1e-4 * fastest)
+    speed = np.maximum(1e-4 * fastest, resolved_speed(problem, start.eigenvalue))
     p = start.eigenvalue * problem.half_chord / speed
     right = start.vectors
     return branches_at(problem, polish_roots(problem, p, speed, (right, right.conj())))
+
+
+def _resolved(problem: AeroelasticProblem, branches: Branches) -> Branches:
+    """Give up branches that have come far beyond what the problem holds for."""
+    lowest = resolved_speed(problem, branches.eigenvalue)
+    lost = branches.alive & (branches.speed < lowest / FAR_BEYOND)
+    return replace(branches, status=np.where(lost, Status.UNRESOLVED, branches.status))
 
 
 def _advanced_apart(problem: AeroelasticProblem, branches: Branches, speed: float) -> Branches:

@@ -1,11 +1,13 @@
 """Natural modes of the folded wing."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 import scipy.linalg
 
+from foldwing.errors import InputError
 from foldwing.maths.arrays import Indices, Real
 from foldwing.maths.null_space import null_space
 from foldwing.maths.rotations import rotation_about_x
@@ -33,6 +35,8 @@ class StructuralModes:
         Largest relative difference of an omega, which is taken from the stored energy of its mode,
         and that of the eigenvalue solver. Grows when a hinge is so stiff, or the basis so large,
         that round-off spoils the modes; below 1e-5 it is of no concern.
+    labels : tuple of str
+        Names of the modes where they are not to be counted anew.
     """
 
     assembly: Assembly
@@ -41,6 +45,7 @@ class StructuralModes:
     coordinates: Real
     damping: float = 0.0
     mismatch: float = 0.0
+    labels: tuple[str, ...] = ()
 
     @property
     def count(self) -> int:
@@ -98,6 +103,8 @@ class StructuralModes:
     @cached_property
     def names(self) -> tuple[str, ...]:
         """Names B1, B2, T1 ... by the larger share of kinetic energy; R1 ... for rigid motions."""
+        if self.labels:
+            return self.labels
         counts = {"B": 0, "T": 0, "R": 0}
         names = []
         for omega, share in zip(self.omega, self.bending_share, strict=True):
@@ -116,6 +123,25 @@ class StructuralModes:
             self.damping,
             self.mismatch,
         )
+
+    def without(self, names: Sequence[str]) -> "StructuralModes":
+        """Return these modes less the named ones; the others keep their names.
+
+        Raises
+        ------
+        InputError
+            When there is no such mode, or none would remain.
+        """
+        unknown = [name for name in names if name not in self.names]
+        if unknown:
+            limit = f"must be one of: {', '.join(self.names)}"
+            raise InputError("--drop-mode", unknown[0], limit, "Name a mode of this wing.")
+        keep = [column for column, name in enumerate(self.names) if name not in names]
+        if not keep:
+            limit = "at least one mode must remain"
+            raise InputError("--drop-mode", ", ".join(names), limit, "Leave out fewer modes.")
+        labels = tuple(self.names[column] for column in keep)
+        return replace(self.only(np.array(keep)), labels=labels)
 
 
 def modal_assurance(first: StructuralModes, second: StructuralModes) -> Real:

@@ -34,10 +34,11 @@ def flutter_answer(case: Case) -> Answer:
         "flutter_points": [_point(row) for row in rows],
         "critical": None if index is None else _point(rows[index]),
         "certified": case.analysis.certified,
-        "valid_from": case.analysis.speed_range[0],
+        "valid_from": case.analysis.valid_from,
         "unstable_from_start": max(case.analysis.unstable_from_start, 0),
-        "uncertified_modes": [],  # the sweep of strip theory reaches every mode
+        "uncertified_modes": list(case.uncertified_modes),
         "status": case.status.meaning,
+        **({"warning": case.warning} if case.warning else {}),
     }
 
 

@@ -47,6 +47,11 @@ class Outcome:
     message: str = ""
 
     @property
+    def remark(self) -> str:
+        """Why the case failed, or what makes its result doubtful."""
+        return self.message if self.case is None else self.case.warning
+
+    @property
     def status(self) -> Status:
         """How the case ended."""
         return Status.FAILED if self.case is None else self.case.status
@@ -211,6 +216,6 @@ def _followed(model: AeroelasticWing, cases: Sequence[Case]) -> list[FollowedMod
 
 
 def _verdicts(outcomes: Sequence[Outcome]) -> Variables:
-    messages = np.array([outcome.message for outcome in outcomes], dtype=np.str_)
+    messages = np.array([outcome.remark for outcome in outcomes], dtype=np.str_)
     verdicts = verdict_variables([outcome.case for outcome in outcomes])
     return verdicts | {"message": (("fold",), messages)}

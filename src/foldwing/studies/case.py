@@ -27,12 +27,20 @@ class Case:
     modes : StructuralModes
     system : AeroelasticSystem
     analysis : FlutterAnalysis
+    warning : str
+        What makes the result doubtful, empty when nothing does.
     """
 
     folds: tuple[float, ...]
     modes: StructuralModes
     system: AeroelasticSystem
     analysis: FlutterAnalysis
+    warning: str = ""
+
+    @property
+    def uncertified_modes(self) -> tuple[str, ...]:
+        """Modes that the aerodynamic model does not resolve at the lowest airspeeds."""
+        return tuple(self.modes.names[column] for column in self.analysis.unresolved)
 
     @property
     def status(self) -> Status:
@@ -81,22 +89,30 @@ def solve_case(
         psi_2 .. psi_N in degrees.
     speed_range : (float, float)
         Lowest and highest airspeed in m/s.
+
+    Raises
+    ------
+    InputError
+        When segments of a vortex lattice lie on each other.
     """
     modes = model.modes(radians(folds))
+    warning = model.warning(modes)
     system = model.system(modes)
     threshold = model.wing.analysis.damping_threshold
-    return Case(folds, modes, system, find_flutter(system, speed_range, threshold))
+    return Case(folds, modes, system, find_flutter(system, speed_range, threshold), warning)
 
 
 def verdict_variables(cases: Sequence[Case | None]) -> dict[str, Any]:
     """Return what is known of each case as a whole, as dataset variables; None for a failed one."""
     fold = ("fold",)
     status = [Status.FAILED if case is None else case.status for case in cases]
-    lowest = [np.nan if case is None else case.analysis.speed_range[0] for case in cases]
+    lowest = [np.nan if case is None else case.analysis.valid_from for case in cases]
+    outside = ["" if case is None else ", ".join(case.uncertified_modes) for case in cases]
     already = [-1 if case is None else case.analysis.unstable_from_start for case in cases]
     return {
         "certified": (fold, np.array([value is Status.OK for value in status])),
         "case_status": (fold, np.array([int(value) for value in status])),
         "valid_from": (fold, np.array(lowest)),
+        "uncertified_modes": (fold, np.array(outside, np.str_)),
         "unstable_from_start": (fold, np.array(already)),
     }

@@ -25,6 +25,7 @@ Variables = dict[str, Any]
 METHODS = {
     "strip": "beam segments, Theodorsen strip theory, sweep of the reduced frequency",
     "quasi-steady": "beam segments, quasi-steady strip theory, sweep of the reduced frequency",
+    "lattice": "beam segments, unsteady vortex lattice, sweep of the reduced frequency",
 }
 """One line per aerodynamic model on how the numbers are computed."""
 
@@ -68,6 +69,7 @@ def flutter_study(
         | table_variables(case.rows(0))
         | _shape_variables(case, grid)
         | verdict_variables([case])
+        | {"message": (("fold",), np.array([case.warning], np.str_))}
     )
     coords = fold_coordinates([folds]) | grid.coordinates()
     coords["speed"] = (("speed",), chosen)
@@ -148,6 +150,7 @@ def search_attributes(model: AeroelasticWing, speeds: tuple[float, float]) -> Va
     """Return the attributes that say what was searched."""
     analysis = model.wing.analysis
     return {
+        "speed_floor": speeds[0],
         "speed_limit": speeds[1],
         "damping": analysis.damping,
         "damping_threshold": analysis.damping_threshold,
