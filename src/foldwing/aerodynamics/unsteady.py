@@ -36,6 +36,10 @@ PRINTED_END = 0.0
 """The same as the dissertation prints it, eq. (A.16): first order in the length of a panel."""
 
 
+LARGEST_GROWTH = 300.0
+"""Logarithm of the ratio of the wake's ends beyond which a decaying motion is not evaluated."""
+
+
 class PanelMotion(NamedTuple):
     """Motion of all panels per coordinate, each of shape (panels, n); w is along the normal.
 
@@ -312,8 +316,9 @@ def _shed(step: Complex, rows: int, relaxation: float) -> Complex:
 
 
 def _shed_with_derivative(step: Complex, rows: int, relaxation: float) -> tuple[Complex, Complex]:
-    """Return omega_j and its derivative with respect to the step."""
+    """Return omega_j and its derivative with respect to the step; nan beyond the largest growth."""
     j = np.arange(rows + 1)
+    step = np.where(-step.real * rows > LARGEST_GROWTH, np.nan, step)
     powers = np.exp(-np.multiply.outer(step, j))
     slopes = -j * powers
     omega, slope = np.diff(powers, axis=1), np.diff(slopes, axis=1)

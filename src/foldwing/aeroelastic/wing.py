@@ -139,7 +139,7 @@ class AeroelasticWing:
         pair = f"segments {near.segment + 1} and {near.other + 1}"
         if near.ratio < TOUCHING:
             folds = ", ".join(f"{math.degrees(angle):g}" for angle in modes.fold_angles)
-            limit = f"{pair} lie on each other, {1e3 * near.distance:.2g} mm apart"
+            limit = f"{pair} lie on each other, {round(1e3 * near.distance, 6):g} mm apart"
             remedy = "A vortex lattice cannot be folded flat: change the angle by some degrees."
             raise InputError("fold", folds, limit, remedy)
         if near.ratio < CLOSE:
