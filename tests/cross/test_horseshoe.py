@@ -149,3 +149,22 @@ def test_far_downstream_only_the_legs_are_left():
     from_b = -0.7 / (0.7**2 + 0.2**2)
     from_a = -0.3 / (0.3**2 + 0.2**2)
     assert fast[0, 0, 0] == pytest.approx((from_b + from_a) / (2 * np.pi), rel=1e-12)
+
+
+def printed_kernel(x, y, z, half, corrected):
+    """Components of I. Wang, PhD dissertation, Duke University, 2013, eqs. (3.3) to (3.5)."""
+    left, right = y - half, y + half
+    to_b, to_a = np.sqrt(x**2 + left**2 + z**2), np.sqrt(x**2 + right**2 + z**2)
+    bound = (left / to_b - right / to_a) / (x**2 + z**2)
+    leg_b, leg_a = (1 + x / to_b) / (left**2 + z**2), (1 + x / to_a) / (right**2 + z**2)
+    legs = left * leg_b - right * leg_a if corrected else left * leg_a - right * leg_b
+    return np.array([-z * bound, z * (leg_a - leg_b), x * bound + legs]) / (4 * np.pi)
+
+
+@pytest.mark.parametrize("point", [(0.3, 0.4, 0.7), (-0.4, 0.2, -0.3), (2.0, 1.5, 0.1)])
+def test_dissertation_s_kernel_holds_with_two_numerators_swapped(point):
+    """Eq. (3.5) as printed gives another normal velocity."""
+    ends = np.array([[0.0, -0.5, 0.0]]), np.array([[0.0, 0.5, 0.0]])
+    found = induced_velocity(np.array([point]), *ends)[0, 0]
+    np.testing.assert_allclose(found, printed_kernel(*point, 0.5, True), rtol=0, atol=1e-14)
+    assert abs(found[2] / printed_kernel(*point, 0.5, False)[2] - 1) > 0.1
