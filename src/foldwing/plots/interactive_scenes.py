@@ -10,6 +10,8 @@ from foldwing.plots.picture import Picture, Scene, Surface, Tag, Thread
 
 _HEIGHT = 300
 _FILM_HEIGHT = 460
+_BAR = 64
+"""Height of a scale of colours with its label."""
 _FRAME_MILLISECONDS = 50
 _CYCLES = 20
 _ZOOM, _FILM_ZOOM = 2.0, 2.6
@@ -31,9 +33,15 @@ def scenes_figure(picture: Picture) -> Json:
     for number, scene in enumerate(scenes):
         name = "scene" if number == 0 else f"scene{number + 1}"
         domain = _domain(number, picture.columns, rows)
-        layout[name] = _axes(scene, domain, _FILM_ZOOM if picture.frames else _ZOOM)
+        bar = 0.0 if scene.graded is None else _BAR / rows / _HEIGHT
+        view = domain[0], (domain[1][0] + bar, domain[1][1])
+        layout[name] = _axes(scene, view, _FILM_ZOOM if picture.frames else _ZOOM)
         layout["annotations"] += [_title(scene.title, domain)] if scene.title else []
-        data += [{**_TRACES[type(item)](item), "scene": name} for item in scene.items]
+        traces = [{**_TRACES[type(item)](item), "scene": name} for item in scene.items]
+        if scene.graded is not None:
+            shown = next(n for n, item in enumerate(scene.items) if item is scene.graded)
+            traces[shown] |= {"showscale": True, "colorbar": _bar(scene, domain)}
+        data += traces
     if picture.frames:
         layout["updatemenus"] = [_buttons(len(picture.frames))]
     return {"data": data, "layout": layout, "frames": _frames(picture)}
@@ -89,7 +97,52 @@ def _title(text: str, domain: tuple[tuple[float, float], ...]) -> Json:
     }
 
 
+def _bar(scene: Scene, domain: tuple[tuple[float, float], ...]) -> Json:
+    """Return the scale of colours below a scene."""
+    return {
+        "orientation": "h",
+        "x": sum(domain[0]) / 2,
+        "xanchor": "center",
+        "y": domain[1][0],
+        "yanchor": "bottom",
+        "len": 0.7 * (domain[0][1] - domain[0][0]),
+        "thickness": 12,
+        "outlinewidth": 0,
+        "title": {"text": scene.value_label, "side": "bottom", "font": {"size": 12}},
+        **({"tickvals": list(scene.ticks)} if scene.ticks else {}),
+    }
+
+
+def _faces(surface: Surface) -> Json:
+    """Return a sheet whose faces have one colour each, as two triangles for each face."""
+    rows, columns = surface.x.shape
+    number = np.arange(rows * columns).reshape(rows, columns)
+    a, b, c, d = (part.ravel() for part in _around(number))
+    i, j, k = np.stack([a, a], 1), np.stack([b, c], 1), np.stack([c, d], 1)
+    return {
+        "type": "mesh3d",
+        **{letter: numbers(getattr(surface, letter).ravel()) for letter in "xyz"},
+        **{letter: part.ravel().tolist() for letter, part in zip("ijk", (i, j, k), strict=True)},
+        "intensity": numbers(np.repeat(np.asarray(surface.values).ravel(), 2)),
+        "intensitymode": "cell",
+        "colorscale": color_scale(surface.scale),
+        "cmin": surface.limits[0],
+        "cmax": surface.limits[1],
+        "showscale": False,
+        "hoverinfo": "skip",
+        "flatshading": True,
+        "lighting": {"ambient": 1.0, "diffuse": 0.0, "specular": 0.0},
+    }
+
+
+def _around(number: Any) -> tuple[Any, ...]:
+    """Return the corners of every face in their order around it."""
+    return number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+
+
 def _surface(surface: Surface) -> Json:
+    if surface.by_face:
+        return _faces(surface)
     trace: Json = {
         "type": "surface",
         "x": numbers(surface.x),
@@ -109,7 +162,7 @@ def _surface(surface: Surface) -> Json:
         }
     return trace | {
         "surfacecolor": numbers(surface.values),
-        "colorscale": color_scale("diverging"),
+        "colorscale": color_scale(surface.scale),
         "cmin": surface.limits[0],
         "cmax": surface.limits[1],
     }

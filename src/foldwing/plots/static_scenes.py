@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize, to_rgba
 from matplotlib.figure import Figure
@@ -25,6 +26,8 @@ from foldwing.plots.static_base import (
 
 _AZIMUTH, _ELEVATION = np.radians(-38.0), np.radians(24.0)
 _MARGIN = 0.1
+_BAR = 0.62
+"""Height of a scale of colours with its label in inches."""
 
 Window = tuple[tuple[float, float], tuple[float, float]]
 """Ranges across and up the paper."""
@@ -39,7 +42,8 @@ def draw_scenes(picture: Picture, colors: Colors) -> Figure:
     width = (WIDTH - 2 * _MARGIN) / columns
     window = _window([*(scene.items for scene in scenes), *picture.frames])
     shape = (window[1][1] - window[1][0]) / (window[0][1] - window[0][0])
-    height = min(max(shape * width, 1.1), 4.5) + 0.3
+    bar = _BAR if any(scene.graded for scene in scenes) else 0.0
+    height = min(max(shape * width, 1.1), 4.5) + 0.3 + bar
     total = head + rows * height + 0.1
     figure = new_figure(WIDTH, total, colors)
     write_head(figure, picture.title, caption, colors)
@@ -47,12 +51,32 @@ def draw_scenes(picture: Picture, colors: Colors) -> Figure:
         row, column = divmod(number, columns)
         place = (
             (_MARGIN + column * width) / WIDTH,
-            (total - head - (row + 1) * height) / total,
+            (total - head - (row + 1) * height + bar) / total,
             width / WIDTH,
-            (height - 0.3) / total,
+            (height - 0.3 - bar) / total,
         )
         _draw(figure.add_axes(place), scene, window, colors)
+        _add_scale(figure, scene, place, colors)
     return figure
+
+
+def _add_scale(
+    figure: Figure, scene: Scene, place: tuple[float, float, float, float], colors: Colors
+) -> None:
+    """Add the scale of colours below a scene."""
+    sheet = scene.graded
+    if sheet is None:
+        return
+    left, lower, width, _ = place
+    high = figure.get_figheight()
+    axes = figure.add_axes((left + 0.15 * width, lower - 0.16 / high, 0.7 * width, 0.1 / high))
+    shown = ScalarMappable(Normalize(*sheet.limits), color_map(sheet.scale, colors))
+    bar = figure.colorbar(shown, cax=axes, orientation="horizontal")
+    if scene.ticks:
+        bar.set_ticks(list(scene.ticks))
+    bar.set_label(scene.value_label, color=colors["ink"], size=9)
+    axes.tick_params(colors=colors["ink"], labelsize=8.5, length=3)
+    bar.outline.set_visible(False)
 
 
 def project(points: Array) -> tuple[Array, Array]:
@@ -130,8 +154,10 @@ def _fills(surface: Surface, colors: Colors) -> Array:
     count = (surface.x.shape[0] - 1) * (surface.x.shape[1] - 1)
     if surface.values is None:
         return np.tile(to_rgba(colors[surface.color], surface.opacity), (count, 1))
-    values = _corners(surface.values[..., None]).mean(axis=2).ravel()
-    fills: Array = color_map("diverging", colors)(Normalize(*surface.limits)(values))
+    values = surface.values.ravel()
+    if not surface.by_face:
+        values = _corners(surface.values[..., None]).mean(axis=2).ravel()
+    fills: Array = color_map(surface.scale, colors)(Normalize(*surface.limits)(values))
     fills[:, 3] = surface.opacity
     return fills
 
