@@ -57,10 +57,10 @@ def work_of_modes(dataset: "xarray.Dataset") -> Picture | None:
         dataset,
         "flutter-energy-modes",
         "How flutter takes its energy from the air: work between modes of vibration",
-        "T1 → B2: the force that the air exerts because of the motion in T1 works on the motion in "
-        "B2; a mode on itself has its own name alone. Flutter needs two modes that feed each "
-        "other.",
-        ("mode → mode", groups),
+        "T1→B2: the force that the air exerts because of the motion in T1 works on the motion in "
+        "B2; what a mode does to itself bears its name alone. Much work from one to the other "
+        "and back shows which modes flutter together.",
+        ("modes", groups),
     )
 
 
@@ -81,7 +81,7 @@ def _pairs(share: Array, names: Array) -> list[Entry]:
     order = np.argsort(-np.abs(share), axis=None)
     moving, driving = np.unravel_index(order, share.shape)
     entries = [
-        (str(names[i]) if i == j else f"{names[j]} → {names[i]}", float(share[i, j]))
+        (str(names[i]) if i == j else f"{names[j]}→{names[i]}", float(share[i, j]))
         for i, j in zip(moving[:_MOST_PAIRS], driving[:_MOST_PAIRS], strict=True)
     ]
     rest = share[moving[_MOST_PAIRS:], driving[_MOST_PAIRS:]]
@@ -135,6 +135,9 @@ def _panel(
 
 def _end(place: float, value: float) -> Note:
     """Return the number at the end of a bar."""
-    text = "0 %" if abs(value) < 100.0 * _NOTHING else f"{value:+.2g} %".replace("-", "−")
-    side: tuple[float, str] = (4.0, "left") if value >= 0.0 else (-4.0, "right")
-    return Note(value, place, text, anchor="left" if side[1] == "left" else "right", dx=side[0])
+    if abs(value) < 100.0 * _NOTHING:
+        return Note(0.0, place, "0 %", dx=4)
+    text = f"{value:+.2g} %".replace("-", "−")
+    if value > 0.0:
+        return Note(value, place, text, dx=4)
+    return Note(value, place, text, anchor="right", dx=-4)

@@ -16,7 +16,8 @@ _FRAME_MILLISECONDS = 50
 _CYCLES = 20
 _ZOOM, _FILM_ZOOM = 2.0, 2.6
 """Length of the longest side of the box in the view."""
-_EYE = {"x": 1.15, "y": -0.90, "z": 0.65}
+_DISTANCE = 1.6
+"""Of the eye from the middle of the view."""
 
 
 def scenes_figure(picture: Picture) -> Json:
@@ -34,8 +35,9 @@ def scenes_figure(picture: Picture) -> Json:
         name = "scene" if number == 0 else f"scene{number + 1}"
         domain = _domain(number, picture.columns, rows)
         bar = 0.0 if scene.graded is None else _BAR / rows / _HEIGHT
-        view = domain[0], (domain[1][0] + bar, domain[1][1])
-        layout[name] = _axes(scene, view, _FILM_ZOOM if picture.frames else _ZOOM)
+        place = domain[0], (domain[1][0] + bar, domain[1][1])
+        layout[name] = _axes(scene, place, _FILM_ZOOM if picture.frames else _ZOOM)
+        layout[name]["camera"]["eye"] = _eye(picture.view)
         layout["annotations"] += [_title(scene.title, domain)] if scene.title else []
         traces = [{**_TRACES[type(item)](item), "scene": name} for item in scene.items]
         if scene.graded is not None:
@@ -66,9 +68,16 @@ def _axes(scene: Scene, domain: tuple[tuple[float, float], ...], zoom: float) ->
             letter: zoom * float(side) for letter, side in zip("xyz", sides, strict=True)
         },
         "domain": {"x": list(domain[0]), "y": [domain[1][0], domain[1][1] - 0.03]},
-        "camera": {"eye": _EYE, "projection": {"type": "orthographic"}},
+        "camera": {"projection": {"type": "orthographic"}},
         "bgcolor": "@paper",
     }
+
+
+def _eye(view: tuple[float, float]) -> Json:
+    azimuth, elevation = np.radians(view)
+    flat, up = _DISTANCE * np.cos(elevation), _DISTANCE * np.sin(elevation)
+    place = {"x": flat * np.cos(azimuth), "y": flat * np.sin(azimuth), "z": up}
+    return {letter: round(float(value), 3) for letter, value in place.items()}
 
 
 def _room(scene: Scene) -> list[tuple[float, float]]:

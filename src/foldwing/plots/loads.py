@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     import xarray
 
 _MOST_ONSETS = 3
+_VIEW = (-12.0, 52.0)
+"""From above, so that segments folded down show their upper side as well."""
 _DASHES: tuple[Dash, ...] = ("solid", "dash", "dot")
 _ANGLES = (-180.0, -90.0, 0.0, 90.0, 180.0)
 _PHASE_LABEL = "phase, ahead of the motion (degrees)"
@@ -44,11 +46,11 @@ def pressure(dataset: "xarray.Dataset") -> Picture | None:
     index, row = found[0]
     values = dataset["pressure"].values[index]
     scenes = [
-        _amplitude(dataset, "amplitude", values, float(np.abs(values).max())),
+        _amplitude(dataset, "amplitude", values),
         _phase(dataset, "phase", values),
     ]
     title = f"Pressure of the air on the wing as flutter begins: {in_words(row)}"
-    return Picture("flutter-pressure", title, _caption(dataset), scenes, columns=2)
+    return Picture("flutter-pressure", title, _caption(dataset), scenes, columns=2, view=_VIEW)
 
 
 def pressure_of_modes(dataset: "xarray.Dataset") -> Picture | None:
@@ -60,17 +62,17 @@ def pressure_of_modes(dataset: "xarray.Dataset") -> Picture | None:
     values, modes = dataset["mode_pressure"].values, dataset["leading_mode"].values
     names = dataset["mode_name"].values[0]
     shares = dataset["mode_share"].values[index]
-    top = float(np.abs(values).max())
     titles = [f"{names[m - 1]}: {100.0 * shares[m - 1]:.0f} % of the energy" for m in modes]
-    upper = [_amplitude(dataset, t, v, top) for t, v in zip(titles, values, strict=True)]
+    upper = [_amplitude(dataset, t, v) for t, v in zip(titles, values, strict=True)]
     lower = [_phase(dataset, "", v) for v in values]
     return Picture(
         "flutter-pressure-modes",
         f"What each mode of vibration adds to this pressure: {in_words(row)}",
         _caption(dataset) + " Each mode moves as it does in the flutter motion, the others stand "
-        "still; what all modes add is the pressure at flutter.",
+        "still; what all modes add is the pressure at flutter. Each has colours of its own.",
         [*upper, *lower],
         columns=len(upper),
+        view=_VIEW,
     )
 
 
@@ -106,14 +108,15 @@ def _caption(dataset: "xarray.Dataset") -> str:
     amplitude = 1000.0 * float(dataset["pressure"].attrs["amplitude"])
     return (
         subtitle(dataset, fold_text(dataset, 0))
-        + f". For a motion with a largest displacement of {amplitude:.3g} mm; phases are relative "
-        "to it (at 0° the air pushes up where and when that is up, at 90° a quarter of a cycle "
-        "before, at −90° after)."
+        + f". For a motion with a largest displacement of {amplitude:.3g} mm. Phase is relative to "
+        "that displacement: at 0° the pressure is highest when it is largest, at 90° a quarter of "
+        "a cycle before, at −90° after."
     )
 
 
-def _amplitude(dataset: "xarray.Dataset", title: str, values: Array, top: float) -> Scene:
-    surfaces = _panels(dataset, np.abs(values), (0.0, top or 1.0), "speed")
+def _amplitude(dataset: "xarray.Dataset", title: str, values: Array) -> Scene:
+    limits = (0.0, float(np.abs(values).max()) or 1.0)
+    surfaces = _panels(dataset, np.abs(values), limits, "speed")
     return _scene(dataset, title, surfaces, "pressure, below less above (Pa)")
 
 

@@ -229,6 +229,8 @@ class Picture:
     panels : sequence of Panel or of Scene
         Panels lie below each other and share x; scenes fill rows of ``columns``.
     columns : int
+    view : (float, float)
+        Whence scenes are seen, in degrees: azimuth from downstream towards outboard, elevation.
     right_margin : float
         Room for labels at the right-hand ends of the lines, in inches.
     frames : sequence of sequence of Surface
@@ -240,6 +242,7 @@ class Picture:
     caption: str
     panels: Sequence[Panel] | Sequence[Scene]
     columns: int = 1
+    view: tuple[float, float] = (-38.0, 24.0)
     right_margin: float = 0.35
     frames: Sequence[Sequence[Surface]] = field(default=())
 
