@@ -57,6 +57,21 @@ def test_leading_modes_carry_most_of_the_motion_and_of_the_pressure(lattice):
     assert np.abs(left).max() < 0.1 * np.abs(lattice["pressure"].values[index]).max()
 
 
+def test_energy_is_that_of_the_mass_in_the_motion_of_the_stated_amplitude(lattice):
+    """Mass times mean square of velocity, by Simpson's rule on the points of the shapes."""
+    simpson_y = np.array([1.0, *[4.0, 2.0] * 4, 4.0, 1.0]) / 30.0
+    weights = np.outer(simpson_y, np.array([1.0, 4.0, 1.0]) / 6.0).ravel()
+    mass = np.concatenate(
+        [1145.0 * 0.0015875 * 0.05 * span * weights for span in (0.14, 0.1, 0.06)]
+    )
+    amplitude = lattice["kinetic_energy"].attrs["amplitude"]
+    square = (np.abs(amplitude * lattice["flutter_shape"].values) ** 2).sum(axis=2)
+    omega = 2.0 * np.pi * lattice["flutter_frequency"].values
+    flutter = lattice["kind"].values == "flutter"
+    energy = 0.5 * omega**2 * (square @ mass)
+    assert lattice["kinetic_energy"].values[flutter] == pytest.approx(energy[flutter], rel=0.02)
+
+
 def test_every_picture_of_loads_is_drawn_by_both_renderers(lattice):
     from plotly import graph_objects
 

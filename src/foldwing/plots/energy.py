@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldwing.plots.layout import PANEL_INCHES, subtitle
+from foldwing.plots.layout import PANEL_INCHES, subtitle, threshold
 from foldwing.plots.picture import Array, Bars, Note, Panel, Picture, Rule
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.summary import fold_text
@@ -34,12 +34,15 @@ def work_of_segments(dataset: "xarray.Dataset") -> Picture | None:
     for index, row in onsets(dataset)[:_MOST_ONSETS]:
         share = 100.0 * work[index] / energy[index]
         groups.append((row, [*zip(names, share, strict=True), ("all", float(share.sum()))]))
+    balance = (
+        "The whole wing (all) receives what the structure dissipates, which is nothing without "
+        "structural damping."
+    )
     return _picture(
         dataset,
         "flutter-energy",
         "Where flutter takes its energy from the air: work on each segment",
-        "The whole wing (all) receives what the structure dissipates, which is nothing without "
-        "structural damping.",
+        "The row “all” is the whole wing." if threshold(dataset) else balance,
         ("segment", groups),
     )
 
@@ -137,7 +140,8 @@ def _end(place: float, value: float) -> Note:
     """Return the number at the end of a bar."""
     if abs(value) < 100.0 * _NOTHING:
         return Note(0.0, place, "0 %", dx=4)
-    text = f"{value:+.2g} %".replace("-", "−")
+    digits = f"{value:+.0f}" if abs(value) >= 100.0 else f"{value:+.2g}"
+    text = f"{digits} %".replace("-", "−")
     if value > 0.0:
         return Note(value, place, text, dx=4)
     return Note(value, place, text, anchor="right", dx=-4)
