@@ -244,7 +244,9 @@ class LatticeModel:
         """Return Qhat at the values ``p`` of shape (m,), as an array (m, n, n)."""
         p = np.asarray(p, complex)
         rate, _, gain = self.scheme.rates(p / self.half_chord)
-        G = self._wake_sum([_shed(p * step, len(P), self.relaxation) for step, P in self._groups])
+        G = self._wake_sum(
+            [shed_factors(p * step, len(P), self.relaxation) for step, P in self._groups]
+        )
         q = self._reduced(G, rate)[0]
         return self._combined(q, rate) / gain[:, None, None]
 
@@ -310,7 +312,7 @@ class LatticeModel:
         return np.asarray(q[:, :n] + rate[:, None, None] * q[:, n:])
 
 
-def _shed(step: Complex, rows: int, relaxation: float) -> Complex:
+def shed_factors(step: Complex, rows: int, relaxation: float) -> Complex:
     """Return omega_j of all rows for ``step`` = p dx / b (m,), shape (m, rows)."""
     return _shed_with_derivative(step, rows, relaxation)[0]
 

@@ -14,7 +14,7 @@ from foldwing.aerodynamics.lattice import (
     mesh_segments,
 )
 from foldwing.aerodynamics.port import AerodynamicModel
-from foldwing.aerodynamics.strip import StripForces, strip_forces, strip_model
+from foldwing.aerodynamics.strip import StripForces, StripModel, strip_forces, strip_model
 from foldwing.aerodynamics.unsteady import (
     Influence,
     LatticeModel,
@@ -187,12 +187,15 @@ class AeroelasticWing:
             self.wing.lattice,
         )
 
-    def aerodynamic_model(self, modes: StructuralModes) -> AerodynamicModel:
-        """Return the aerodynamic forces of the modes."""
-        if self.aerodynamics == "lattice":
-            return self.lattice(modes)
+    def strip_theory(self, modes: StructuralModes) -> StripModel:
+        """Return strip theory for the modes, quasi-steady unless its forces are to lag."""
         lag = self.aerodynamics == "strip"
         return strip_model(self._strips, modes.by_segment, self.half_chord, lag)
+
+    def aerodynamic_model(self, modes: StructuralModes) -> AerodynamicModel:
+        """Return the aerodynamic forces of the modes."""
+        lattice = self.aerodynamics == "lattice"
+        return self.lattice(modes) if lattice else self.strip_theory(modes)
 
     def system(self, modes: StructuralModes) -> AeroelasticSystem:
         """Return the aeroelastic problem of the modes in the airstream."""

@@ -5,7 +5,9 @@ from typing import TYPE_CHECKING
 
 from foldwing.plots.boundary import boundary, boundary_map
 from foldwing.plots.determinant import determinant_contours
+from foldwing.plots.energy import work_of_modes, work_of_segments
 from foldwing.plots.frequencies import natural_frequencies
+from foldwing.plots.loads import circulation, pressure, pressure_of_modes
 from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.picture import Picture
 from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
@@ -22,6 +24,11 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     natural_frequencies,
     mode_shapes,
     flutter_phases,
+    work_of_segments,
+    work_of_modes,
+    pressure,
+    pressure_of_modes,
+    circulation,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 

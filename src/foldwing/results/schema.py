@@ -64,6 +64,7 @@ _LOCUS: Dims = ("fold", "speed", "mode")
 _TABLE: Dims = ("flutter_point",)
 _CURVE: Dims = ("curve_sample",)
 _MEASURED: Dims = ("measured",)
+_PANEL: Dims = ("panel",)
 
 
 def _row(name: str, dims: Dims, units: str, long_name: str, dtype: str = "real") -> Variable:
@@ -84,6 +85,16 @@ _COORDINATES = (
     _row("contour_frequency", ("contour_frequency",), "Hz", "frequency of the contour grid"),
     _row("curve_sample", _CURVE, "1", "sample of the continuation curves", "integer"),
     _row("measured", _MEASURED, "1", "measured point", "integer"),
+    _row("wing_segment", ("wing_segment",), "1", "segment, 1 at the root", "integer"),
+    _row("moving_mode", ("moving_mode",), "1", "natural mode that the work is done on", "integer"),
+    _row("driving_mode", ("driving_mode",), "1", "natural mode that causes the force", "integer"),
+    _row("leading_mode", ("leading_mode",), "1", "natural mode with a large share", "integer"),
+    _row("panel", _PANEL, "1", "panel of the lattice", "integer"),
+    _row("panel_segment", _PANEL, "1", "segment of the panel, 1 at the root", "integer"),
+    _row("panel_chordwise", _PANEL, "1", "row of the panel, 0 at the leading edge", "integer"),
+    _row("panel_spanwise", _PANEL, "1", "strip of the panel, 0 at the root", "integer"),
+    _row("panel_span", _PANEL, "m", "way along the folded wing from the root"),
+    _row("corner", ("corner",), "1", "corner of the panel, around it", "integer"),
 )
 
 _MODES = (
@@ -151,8 +162,21 @@ _EXTRAS = (
     _row("measured_frequency", _MEASURED, "Hz", "measured: frequency"),
 )
 
+_PAIRS: Dims = (*_TABLE, "moving_mode", "driving_mode")
+
+_LOADS = (
+    _row("work", (*_TABLE, "wing_segment"), "J", "work of the air on the segment over a cycle"),
+    _row("work_between_modes", _PAIRS, "J", "work of the air on a mode by the force of another"),
+    _row("kinetic_energy", _TABLE, "J", "kinetic energy at full amplitude of the motion"),
+    _row("mode_share", (*_TABLE, "moving_mode"), "1", "share of the mode in the kinetic energy"),
+    _row("panel_position", (*_PANEL, "corner", "axis"), "m", "corners of the panels at rest"),
+    _row("circulation", (*_TABLE, *_PANEL), "m^2/s", "circulation, positive lifts", "complex"),
+    _row("pressure", (*_TABLE, *_PANEL), "Pa", "pressure below less above the panel", "complex"),
+    _row("mode_pressure", ("leading_mode", *_PANEL), "Pa", "what the mode adds to it", "complex"),
+)
+
 VARIABLES: Mapping[str, Variable] = {
-    row.name: row for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS)
+    row.name: row for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS, *_LOADS)
 }
 """Every variable a dataset may hold."""
 
