@@ -13,7 +13,7 @@ from foldwing.stability.status import Status
 if TYPE_CHECKING:
     import xarray
 
-KINDS = ("modes", "flutter", "boundary")
+KINDS = ("modes", "flutter", "boundary", "convergence")
 """What a dataset can hold; its attribute ``kind`` is one of these."""
 
 REQUIRED_ATTRIBUTES = (
@@ -64,6 +64,9 @@ _LOCUS: Dims = ("fold", "speed", "mode")
 _TABLE: Dims = ("flutter_point",)
 _CURVE: Dims = ("curve_sample",)
 _MEASURED: Dims = ("measured",)
+_LEVEL: Dims = ("level",)
+_AT_LEVEL: Dims = ("level", "flutter_point")
+_CONVERGENCE: Dims = ("setting", "flutter_point")
 
 
 def _row(name: str, dims: Dims, units: str, long_name: str, dtype: str = "real") -> Variable:
@@ -84,6 +87,8 @@ _COORDINATES = (
     _row("contour_frequency", ("contour_frequency",), "Hz", "frequency of the contour grid"),
     _row("curve_sample", _CURVE, "1", "sample of the continuation curves", "integer"),
     _row("measured", _MEASURED, "1", "measured point", "integer"),
+    _row("setting", ("setting",), "", "setting of the computation that is varied", "text"),
+    _row("level", _LEVEL, "1", "computation with one setting changed", "integer"),
 )
 
 _MODES = (
@@ -151,8 +156,25 @@ _EXTRAS = (
     _row("measured_frequency", _MEASURED, "Hz", "measured: frequency"),
 )
 
+_LEVELS = (
+    _row("level_setting", _LEVEL, "", "setting that is changed", "text"),
+    _row("level_value", _LEVEL, "1", "its value: a number, chords of wake, or a gap in m"),
+    _row("level_own", _LEVEL, "", "the model's own settings", "truth"),
+    _row("level_status", _LEVEL, "1", "how the computation ended", "status"),
+    _row("level_message", _LEVEL, "", "why the computation failed or is doubtful", "text"),
+    _row("level_speed", _AT_LEVEL, "m/s", "airspeed of the same flutter point"),
+    _row("level_frequency", _AT_LEVEL, "Hz", "frequency of the same flutter point"),
+    _row("level_likeness", _AT_LEVEL, "1", "likeness (MAC) of its motion to the model's own"),
+    _row("convergence", _CONVERGENCE, "", "how the airspeed converges", "text"),
+    _row("order", _CONVERGENCE, "1", "observed order of convergence"),
+    _row("limit_speed", _CONVERGENCE, "m/s", "extrapolated airspeed"),
+    _row("error_speed", _CONVERGENCE, "m/s", "error bar of the airspeed"),
+    _row("mesh_limit_speed", _TABLE, "m/s", "airspeed extrapolated in chord, span and wake"),
+    _row("mesh_error_speed", _TABLE, "m/s", "error bar of chord, span and wake together"),
+)
+
 VARIABLES: Mapping[str, Variable] = {
-    row.name: row for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS)
+    row.name: row for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS, *_LEVELS)
 }
 """Every variable a dataset may hold."""
 
