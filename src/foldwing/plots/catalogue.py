@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from foldwing.plots.boundary import boundary, boundary_map
+from foldwing.plots.convergence import convergence
 from foldwing.plots.determinant import determinant_contours
 from foldwing.plots.frequencies import natural_frequencies
 from foldwing.plots.loci import against_speed, root_locus
@@ -22,6 +23,7 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     natural_frequencies,
     mode_shapes,
     flutter_phases,
+    convergence,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 

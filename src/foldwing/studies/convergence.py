@@ -31,6 +31,9 @@ Variables = dict[str, Any]
 MISSING = "missing"
 """Verdict on a point that is not found with the model's own settings made finer."""
 
+WIDER = 1.25
+"""Factor by which variants are searched beyond the airspeeds of the model's own settings."""
+
 
 @dataclass(frozen=True)
 class Solved:
@@ -127,7 +130,7 @@ def convergence_study(
     models = [replace(model, wing=variant.wing) for variant in wings]
     found: list[Solved] = []
     try:
-        for solved in _solve(models, (folds, speeds, grid), jobs):
+        for solved in _solve(models, (folds, _widened(speeds), grid), jobs):
             found.append(solved)
             progress(len(found))
     except KeyboardInterrupt:
@@ -148,6 +151,11 @@ def convergence_study(
         attrs["interrupted"] = f"{len(found)} of {len(wings)} variants finished"
     dataset = _dataset(case, base, chosen, answers, attrs)
     return ConvergenceStudy(dataset, case, _failures(chosen, answers), interrupted)
+
+
+def _widened(speeds: tuple[float, float]) -> tuple[float, float]:
+    """Return the range for variants: a point near an end of the search may move beyond it."""
+    return speeds[0] / WIDER, speeds[1] * WIDER
 
 
 def _solve(

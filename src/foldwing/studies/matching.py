@@ -35,9 +35,7 @@ def likeness(motions: Complex, others: Complex) -> Real:
     return np.asarray(product / np.outer(*norms))
 
 
-def match_points(
-    rows: Sequence[FlutterRow], others: Sequence[FlutterRow], alike: Real
-) -> Indices:
+def match_points(rows: Sequence[FlutterRow], others: Sequence[FlutterRow], alike: Real) -> Indices:
     """Return for each flutter point its counterpart among others, -1 when it has none.
 
     Only points of one kind and event with like motions and near airspeeds and frequencies are
