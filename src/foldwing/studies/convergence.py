@@ -188,7 +188,8 @@ def _attempt(
 def _solved(case: Case, grid: SurfaceGrid) -> Solved:
     motions = np.einsum("pan,fn->fpa", grid.displacement(case.modes), case.motions())
     rows = case.rows(0)
-    return Solved(case.status, case.warning, tuple(rows), motions.reshape(len(rows), -1))
+    places = 3 * len(grid.x)
+    return Solved(case.status, case.warning, tuple(rows), motions.reshape(len(rows), places))
 
 
 def _failures(chosen: Sequence[Variant], answers: Sequence[Solved]) -> tuple[str, ...]:
@@ -224,12 +225,14 @@ def assessed(setting: str, levels: Real, speeds: Real, at: int | None) -> Conver
     at : int or None
         Level whose error is wanted; None when it is not among the levels.
     """
+    rule = SETTINGS[setting]
+    if at is not None and rule.finer_when_smaller:
+        levels, speeds, at = levels[::-1], speeds[::-1], len(levels) - 1 - at
     if at is None or np.isnan(speeds[at:]).any():
         return Convergence(MISSING, np.nan, np.nan, np.nan)
     there = np.isfinite(speeds)
-    law = SETTINGS[setting].power_law
-    size = 1.0 / levels[there] if law else levels[there]
-    return assess(size, speeds[there], float(speeds[at]), power_law=law)
+    size = 1.0 / levels[there] if rule.power_law else levels[there]
+    return assess(size, speeds[there], float(speeds[at]), power_law=rule.power_law)
 
 
 def _dataset(

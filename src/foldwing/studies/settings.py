@@ -24,8 +24,6 @@ class Setting:
     Attributes
     ----------
     name : str
-    unit : str
-        What its value counts, or ``m``.
     own : callable
         Its value in a wing.
     changed : callable
@@ -38,16 +36,18 @@ class Setting:
         Whether the error is expected to fall with a power of 1 / value.
     own_counts : bool
         Whether the model itself is one of the levels.
+    finer_when_smaller : bool
+        Whether the limit is that of small values.
     """
 
     name: str
-    unit: str
     own: Callable[[Wing], float]
     changed: Callable[[Wing, float], Wing]
     levels: Callable[[Wing], Sequence[float]]
     applies: Callable[[AeroelasticWing], bool]
     power_law: bool = True
     own_counts: bool = True
+    finer_when_smaller: bool = False
 
 
 def _is_lattice(model: AeroelasticWing) -> bool:
@@ -135,16 +135,14 @@ SETTINGS: Mapping[str, Setting] = {
     for setting in (
         Setting(
             "chordwise",
-            "panels",
             lambda wing: float(wing.lattice.chordwise),
             lambda wing, value: wing.with_lattice(chordwise=_integer(value)),
             _chordwise_levels,
             _is_lattice,
         ),
-        Setting("spanwise", "strips", _strips, _with_strips, _spanwise_levels, _is_lattice),
+        Setting("spanwise", _strips, _with_strips, _spanwise_levels, _is_lattice),
         Setting(
             "wake",
-            "chords",
             _wake,
             lambda wing, value: wing.with_lattice(wake=value),
             _wake_levels,
@@ -152,7 +150,6 @@ SETTINGS: Mapping[str, Setting] = {
         ),
         Setting(
             "time-step",
-            "panels",
             lambda wing: float(wing.lattice.chordwise),
             _with_average,
             lambda wing: _chordwise_levels(wing)[1:],
@@ -161,7 +158,6 @@ SETTINGS: Mapping[str, Setting] = {
         ),
         Setting(
             "segment-modes",
-            "modes",
             _segment_modes,
             _with_segment_modes,
             lambda wing: SEGMENT_MODES,
@@ -169,7 +165,6 @@ SETTINGS: Mapping[str, Setting] = {
         ),
         Setting(
             "system-modes",
-            "modes",
             lambda wing: float(wing.analysis.system_modes),
             lambda wing, value: wing.with_analysis(system_modes=_integer(value)),
             lambda wing: SYSTEM_MODES,
@@ -178,12 +173,12 @@ SETTINGS: Mapping[str, Setting] = {
         ),
         Setting(
             "gap",
-            "m",
             _gap,
             _with_gap,
             lambda wing: [factor * _gap(wing) for factor in (0.0, 0.25, 0.5, 1.0)],
             lambda model: _is_lattice(model) and _gap(model.wing) > 0.0,
             power_law=False,
+            finer_when_smaller=True,
         ),
     )
 }

@@ -23,7 +23,7 @@ class Variant:
     ----------
     setting : str
     value : float
-        In the unit of the setting.
+        A number, chords of wake, or a gap in metres.
     own : bool
         Whether this is the model as it is.
     reference : bool
