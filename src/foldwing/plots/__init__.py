@@ -8,6 +8,7 @@ A picture is described once (`picture`) and drawn by two renderers.
 `boundary`                  flutter speed, frequency and strength against the fold angle
 `shapes`                    mode shapes, and the motion at flutter
 `determinant`               zero lines of the determinant
+`convergence`               airspeeds against the fineness of the computation
 `catalogue`                 which of these a dataset has
 `layout`, `palette`         what they share: labels, ranges, colours by role
 `events`                    how flutter points look, the same everywhere

@@ -7,7 +7,18 @@ import numpy as np
 from foldwing.plots.events import symbol_of, words
 from foldwing.plots.layout import subtitle
 from foldwing.plots.palette import SERIES
-from foldwing.plots.picture import Area, Array, Item, Line, Marks, Panel, Picture, Range, Rule
+from foldwing.plots.picture import (
+    Area,
+    Array,
+    Item,
+    Line,
+    Marks,
+    Panel,
+    Picture,
+    Range,
+    Rule,
+    padded,
+)
 from foldwing.results.convergence_table import TARGET, TITLES, Levels, levels_by_setting
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.summary import fold_text
@@ -49,7 +60,7 @@ def _panel(one: Levels, rows: list[FlutterRow]) -> Panel:
         "airspeed off its limit (%)",
         [_band(x_range), *own, Rule(0.0, "y"), *_curves(x, relative, one, rows)],
         x_range,
-        _range(relative),
+        _range(relative, relative[one.own]),
         height=0.8,
         log_x=log,
         x_ticks=[(float(value), f"{value:g}") for value in x],
@@ -64,12 +75,14 @@ def _band(x_range: Range) -> Area:
     return Area(x, y, "series2", 0.13, f"within {100 * TARGET:g} %")
 
 
-def _range(relative: Array) -> Range:
-    finite = relative[np.isfinite(relative)]
-    if not finite.size:
-        return (-_LEAST, _LEAST)
-    low, high = 1.1 * float(finite.min()), 1.1 * float(finite.max())
-    return (max(min(low, -_LEAST), -_MOST), min(max(high, _LEAST), _MOST))
+def _range(relative: Array, own: Array) -> Range:
+    """Return limits that show the model's own setting whole, and others unless they stray far."""
+    low, high = padded(relative)
+    least, most = padded(own)
+    return (
+        min(max(low, -_MOST), least, -_LEAST),
+        max(min(high, _MOST), most, _LEAST),
+    )
 
 
 def _curves(x: Array, relative: Array, one: Levels, rows: list[FlutterRow]) -> list[Item]:
