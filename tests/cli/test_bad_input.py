@@ -18,6 +18,7 @@ hinge = { springs = 3, spacing = "15 mm", stiffness = "0.18 N*m/rad", fold = 30 
 """
 
 THREE = "three-segment"
+LATTICE = ("convergence", THREE, "--aero", "lattice")
 GRID = ("--fold2", "0:1000:1", "--fold3", "0:1000:1")
 
 # arguments, and what the message must say: field, value, limit, remedy
@@ -90,6 +91,29 @@ CASES = [
     # measured points
     (("boundary", THREE, "--measured", "no.csv"), "--measured", "no.csv", "No such", "level-tip"),
     (("modes", THREE, "--measured", "."), "--measured", "'.'", "can be read", "header has fold_2"),
+    # convergence
+    (("convergence", THREE, "--fold2", "0:9:3"), "2=0:9:3", "convergence takes one", "not 4"),
+    (
+        ("convergence", THREE, "--vary", "chord"),
+        "--vary",
+        "'chord'",
+        "chordwise, spanwise",
+        "--vary chordwise",
+    ),
+    (("convergence", THREE, "--vary", ""), "--vary", "''", "chordwise, spanwise"),
+    (("convergence", THREE, "--vary", "wake"), "--vary", "'wake'", "strip", "Add --aero lattice"),
+    ((*LATTICE, "--vary", "gap"), "--vary", "'gap'", "not depend", '--gap "1 mm"'),
+    ((*LATTICE, "--levels", "wake"), "--levels", "'wake'", "numbers", "chordwise=4,8,16"),
+    ((*LATTICE, "--levels", "wak=3"), "--levels", "'wak=3'", "name one of", "chordwise=4,8,16"),
+    ((*LATTICE, "--levels", "wake=0"), "--levels", "'wake=0'", "greater than 0", "chordwise=4"),
+    ((*LATTICE, "--levels", "wake=nan"), "--levels", "'wake=nan'", "finite", "chordwise=4"),
+    ((*LATTICE, "--levels", "wake=2,a"), "--levels", "'wake=2,a'", "numbers", "chordwise=4"),
+    ((*LATTICE, "--levels", "chordwise=4.5"), "--levels", "chordwise=4.5", "a whole number"),
+    ((*LATTICE, "--levels", "wake=1e9"), "--levels", "wake=1000000000.0", "at most 10000"),
+    ((*LATTICE, "--levels", "wake=" + "1," * 200), "--levels", "201 values", "at most 100"),
+    ((*LATTICE, "--levels", "wake=2", "--levels", "wake=3"), "--levels", "already", "once"),
+    ((*LATTICE, "--vary", "wake", "--levels", "gap=0"), "--levels", "'gap'", '--gap "1 mm"'),
+    ((*LATTICE, "--vary", "wake", "--levels", "chordwise=4"), "--levels", "not among --vary"),
     # examples
     (("examples", "golan"), "'golan'", "Did you mean goland?", "hale"),
     (("examples", "--copy", "x.toml"), "NAME", "missing", "--copy", "name first"),

@@ -20,6 +20,7 @@ OPTIONS = {
     "modes": OF_A_MODEL | {"--measured"},
     "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds"},
     "boundary": OF_A_MODEL | OF_A_SEARCH | {"--measured", "--trace", "--jobs"},
+    "convergence": OF_A_MODEL | OF_A_SEARCH | {"--vary", "--levels", "--jobs"},
 }
 
 

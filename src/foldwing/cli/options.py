@@ -114,6 +114,23 @@ Trace = Annotated[
     bool,
     typer.Option("--trace", help="Join the points into curves, followed exactly around turns."),
 ]
+Vary = Annotated[
+    str | None,
+    typer.Option(
+        "--vary",
+        metavar="NAME,...",
+        help="Vary only these: chordwise, spanwise, wake, time-step, segment-modes, system-modes, "
+        "gap. (default: all that the model has)",
+    ),
+]
+Levels = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--levels",
+        metavar="NAME=N,N,...",
+        help="Values to try, chordwise=4,8,16; the model's own is added. May be repeated.",
+    ),
+]
 Jobs = Annotated[str, typer.Option("--jobs", metavar="N", help="Processes to run in parallel.")]
 Plot = Annotated[bool, typer.Option("--plot/--no-plot", help="Draw pictures and a report.")]
 Out = Annotated[

@@ -10,6 +10,7 @@ A picture is described once (`picture`) and drawn by two renderers.
 `energy`                    the work of the air on segments and modes at flutter
 `loads`                     pressure and circulation at flutter
 `determinant`               zero lines of the determinant
+`convergence`               airspeeds against the fineness of the computation
 `catalogue`                 which of these a dataset has
 `layout`, `palette`         what they share: labels, ranges, colours by role
 `events`                    how flutter points look, the same everywhere

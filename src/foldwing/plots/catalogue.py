@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from foldwing.plots.boundary import boundary, boundary_map
+from foldwing.plots.convergence import convergence
 from foldwing.plots.determinant import determinant_contours
 from foldwing.plots.energy import work_of_modes, work_of_segments
 from foldwing.plots.frequencies import natural_frequencies
@@ -29,6 +30,7 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     pressure,
     pressure_of_modes,
     circulation,
+    convergence,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 

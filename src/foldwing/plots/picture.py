@@ -148,6 +148,8 @@ class Panel:
     y_ticks: Sequence[tuple[float, str]] | None = None
     title: str = ""
     height: float = 1.0
+    log_x: bool = False
+    x_ticks: Sequence[tuple[float, str]] | None = None
 
 
 @dataclass(frozen=True)
@@ -227,7 +229,8 @@ class Picture:
     caption : str
         How to read it, one or two sentences.
     panels : sequence of Panel or of Scene
-        Panels lie below each other and share x; scenes fill rows of ``columns``.
+        Panels in one column lie below each other and share x; scenes, and panels in more columns,
+        fill rows and have their own.
     columns : int
     view : (float, float)
         Whence scenes are seen, in degrees: azimuth from downstream towards outboard, elevation.

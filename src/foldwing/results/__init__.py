@@ -4,6 +4,7 @@
 `schema`             every variable: dimensions, unit, meaning; `build_dataset`
 `flutter_table`      the table of flutter points, as rows and as variables
 `provenance`         version, model, options and date, carried by every dataset
+`convergence_table`  error bars of a convergence study, by setting
 `summary`            the answer and the certificate in one line each
 `writing`            netCDF and CSV
 `folders`            result folders: whole or not at all, never over something else
@@ -18,6 +19,7 @@ from foldwing.results.summary import answer, certificate
 from foldwing.results.writing import (
     DATASET_FILE,
     read_dataset,
+    write_convergence_csv,
     write_csv,
     write_dataset,
     write_frequencies_csv,
@@ -42,6 +44,7 @@ __all__ = [
     "read_dataset",
     "result_folder",
     "table_variables",
+    "write_convergence_csv",
     "write_csv",
     "write_dataset",
     "write_frequencies_csv",

@@ -13,7 +13,7 @@ from foldwing.stability.status import Status
 if TYPE_CHECKING:
     import xarray
 
-KINDS = ("modes", "flutter", "boundary")
+KINDS = ("modes", "flutter", "boundary", "convergence")
 """What a dataset can hold; its attribute ``kind`` is one of these."""
 
 REQUIRED_ATTRIBUTES = (
@@ -65,6 +65,9 @@ _TABLE: Dims = ("flutter_point",)
 _CURVE: Dims = ("curve_sample",)
 _MEASURED: Dims = ("measured",)
 _PANEL: Dims = ("panel",)
+_LEVEL: Dims = ("level",)
+_AT_LEVEL: Dims = ("level", "flutter_point")
+_CONVERGENCE: Dims = ("setting", "flutter_point")
 
 
 def _row(name: str, dims: Dims, units: str, long_name: str, dtype: str = "real") -> Variable:
@@ -95,6 +98,8 @@ _COORDINATES = (
     _row("panel_spanwise", _PANEL, "1", "strip of the panel, 0 at the root", "integer"),
     _row("panel_span", _PANEL, "m", "way along the folded wing from the root"),
     _row("corner", ("corner",), "1", "corner of the panel, around it", "integer"),
+    _row("setting", ("setting",), "", "setting of the computation that is varied", "text"),
+    _row("level", _LEVEL, "1", "computation with one setting changed", "integer"),
 )
 
 _MODES = (
@@ -175,8 +180,25 @@ _LOADS = (
     _row("mode_pressure", ("leading_mode", *_PANEL), "Pa", "what the mode adds to it", "complex"),
 )
 
+_LEVELS = (
+    _row("level_setting", _LEVEL, "", "setting that is changed", "text"),
+    _row("level_value", _LEVEL, "1", "its value: a number, chords of wake, or a gap in m"),
+    _row("level_own", _LEVEL, "", "the model's own settings", "truth"),
+    _row("level_status", _LEVEL, "1", "how the computation ended", "status"),
+    _row("level_message", _LEVEL, "", "why the computation failed or is doubtful", "text"),
+    _row("level_speed", _AT_LEVEL, "m/s", "airspeed of the same flutter point"),
+    _row("level_frequency", _AT_LEVEL, "Hz", "frequency of the same flutter point"),
+    _row("level_likeness", _AT_LEVEL, "1", "likeness (MAC) of its motion to the model's own"),
+    _row("convergence", _CONVERGENCE, "", "how the airspeed converges", "text"),
+    _row("order", _CONVERGENCE, "1", "observed order of convergence"),
+    _row("limit_speed", _CONVERGENCE, "m/s", "extrapolated airspeed"),
+    _row("error_speed", _CONVERGENCE, "m/s", "error bar of the airspeed"),
+    _row("mesh_limit_speed", _TABLE, "m/s", "airspeed extrapolated in chord, span and wake"),
+    _row("mesh_error_speed", _TABLE, "m/s", "error bar of chord, span and wake together"),
+)
+
 VARIABLES: Mapping[str, Variable] = {
-    row.name: row for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS, *_LOADS)
+    row.name: row for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS, *_LOADS, *_LEVELS)
 }
 """Every variable a dataset may hold."""
 

@@ -78,6 +78,34 @@ def write_frequencies_csv(dataset: "xarray.Dataset", path: Path) -> None:
     _write_table(path, ("case", *angles, "mode", *columns), body)
 
 
+def write_convergence_csv(dataset: "xarray.Dataset", folder: Path) -> None:
+    """Write a convergence study: ``convergence.csv`` with orders, ``levels.csv`` with speeds.
+
+    Both have one line for each setting (or level) and flutter point; ``point`` counts the lines of
+    the table of flutter points from 0.
+    """
+    points = range(dataset.sizes["flutter_point"])
+    columns = ("convergence", "order", "limit_speed", "error_speed")
+    orders = (
+        (name, point, *(dataset[column].values[index, point].item() for column in columns))
+        for index, name in enumerate(dataset["setting"].values.tolist())
+        for point in points
+    )
+    _write_table(folder / "convergence.csv", ("setting", "point", *columns), orders)
+    fixed = ("setting", "value", "own")
+    varying = ("speed", "frequency", "likeness")
+    levels = (
+        (
+            *(dataset[f"level_{name}"].values[level].item() for name in fixed),
+            point,
+            *(dataset[f"level_{name}"].values[level, point].item() for name in varying),
+        )
+        for level in range(dataset.sizes["level"])
+        for point in points
+    )
+    _write_table(folder / "levels.csv", (*fixed, "point", *varying), levels)
+
+
 def _field(row: Any, column: str) -> Any:
     return getattr(row, "classification" if column == "class" else column)
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,6 +11,10 @@ from foldwing.stability.status import Status
 from foldwing.structure.modes import StructuralModes
 from foldwing.studies.boundary import Boundary, Outcome
 from foldwing.studies.case import Case
+from foldwing.studies.convergence import ConvergenceStudy
+
+if TYPE_CHECKING:
+    import xarray
 
 Answer = dict[str, Any]
 
@@ -54,6 +58,47 @@ def boundary_answer(boundary: Boundary) -> Answer:
     if "turning" in attrs:
         answer["turning_folds"] = [float(angle) for angle in attrs["turning"].split(", ") if angle]
     return answer
+
+
+def convergence_answer(study: ConvergenceStudy) -> Answer:
+    """Return the flutter points of one case with their error bars, by setting, in m/s and Hz."""
+    dataset = study.dataset
+    answer = flutter_answer(study.case)
+    mesh = [dataset[f"mesh_{name}_speed"].values for name in ("limit", "error")]
+    points = [
+        {
+            **point,
+            "limit_speed": _number(mesh[0][index]),
+            "error_speed": _number(mesh[1][index]),
+            "settings": {
+                name: _convergence(dataset, row, index)
+                for row, name in enumerate(dataset["setting"].values.tolist())
+            },
+        }
+        for index, point in enumerate(answer["flutter_points"])
+    ]
+    answer |= {"flutter_points": points, "failures": list(study.failures)}
+    if study.interrupted:
+        answer["interrupted"] = dataset.attrs["interrupted"]
+    return answer
+
+
+def _convergence(dataset: "xarray.Dataset", row: int, point: int) -> Answer:
+    here = dataset["level_setting"].values == dataset["setting"].values[row]
+    columns = {name: dataset[f"level_{name}"].values[here] for name in ("value", "own")}
+    columns |= {
+        name: dataset[f"level_{name}"].values[here, point] for name in ("speed", "frequency")
+    }
+    return {
+        "convergence": str(dataset["convergence"].values[row, point]),
+        "order": _number(dataset["order"].values[row, point]),
+        "limit_speed": _number(dataset["limit_speed"].values[row, point]),
+        "error_speed": _number(dataset["error_speed"].values[row, point]),
+        "levels": [
+            {"value": float(value), "own": bool(own), "speed": _number(u), "frequency": _number(f)}
+            for value, own, u, f in zip(*columns.values(), strict=True)
+        ],
+    }
 
 
 def _case(outcome: Outcome) -> Answer:
