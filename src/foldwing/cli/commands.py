@@ -356,6 +356,7 @@ def _write(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> No
         write_csv,
         write_dataset,
         write_frequencies_csv,
+        write_steady_csv,
     )
 
     if output.out is None:  # another run may have taken the dated name meanwhile
@@ -366,6 +367,8 @@ def _write(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> No
             write_frequencies_csv(dataset, staging / "natural_frequencies.csv")
         if "case" in dataset:
             write_csv(dataset, staging / "flutter_points.csv")
+        if "lift_slope" in dataset:
+            write_steady_csv(dataset, staging)
         if output.plot:
             from foldwing.plots import write_pictures, write_report
 

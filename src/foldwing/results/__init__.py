@@ -6,6 +6,7 @@
 `provenance`         version, model, options and date, carried by every dataset
 `summary`            the answer and the certificate in one line each
 `writing`            netCDF and CSV
+`steady_table`       tables of steady loads
 `folders`            result folders: whole or not at all, never over something else
 ===================  ==========================================================================
 """
@@ -14,6 +15,7 @@ from foldwing.results.flutter_table import FlutterRow, flutter_rows, table_varia
 from foldwing.results.folders import check_writable, default_folder, free_name, result_folder
 from foldwing.results.provenance import Source, model_hash, package_version, provenance
 from foldwing.results.schema import VARIABLES, build_dataset, fold_angle_names
+from foldwing.results.steady_table import write_steady_csv
 from foldwing.results.summary import answer, certificate
 from foldwing.results.writing import (
     DATASET_FILE,
@@ -45,4 +47,5 @@ __all__ = [
     "write_csv",
     "write_dataset",
     "write_frequencies_csv",
+    "write_steady_csv",
 ]

@@ -13,7 +13,7 @@ from foldwing.stability.status import Status
 if TYPE_CHECKING:
     import xarray
 
-KINDS = ("modes", "flutter", "boundary")
+KINDS = ("modes", "flutter", "boundary", "steady")
 """What a dataset can hold; its attribute ``kind`` is one of these."""
 
 REQUIRED_ATTRIBUTES = (
@@ -64,6 +64,9 @@ _LOCUS: Dims = ("fold", "speed", "mode")
 _TABLE: Dims = ("flutter_point",)
 _CURVE: Dims = ("curve_sample",)
 _MEASURED: Dims = ("measured",)
+_STRIP: Dims = ("strip",)
+_LOADS: Dims = ("fold", "gap")
+_SEGMENT: Dims = (*_LOADS, "wing_segment")
 
 
 def _row(name: str, dims: Dims, units: str, long_name: str, dtype: str = "real") -> Variable:
@@ -84,6 +87,17 @@ _COORDINATES = (
     _row("contour_frequency", ("contour_frequency",), "Hz", "frequency of the contour grid"),
     _row("curve_sample", _CURVE, "1", "sample of the continuation curves", "integer"),
     _row("measured", _MEASURED, "1", "measured point", "integer"),
+    _row("gap", ("gap",), "", "gaps between segments: open as in the model, or closed", "text"),
+    _row("wing_segment", ("wing_segment",), "1", "segment, 1 at the root", "integer"),
+    _row("hinge", ("hinge",), "1", "hinge, 2 between segments 1 and 2", "integer"),
+    _row("strip", _STRIP, "1", "strip of a lattice", "integer"),
+    _row("strip_gap", _STRIP, "", "gaps of the lattice that the strip belongs to", "text"),
+    _row("strip_segment", _STRIP, "1", "segment that the strip belongs to", "integer"),
+    _row("strip_inner", _STRIP, "m", "inboard edge of the strip along the unfolded span"),
+    _row("strip_outer", _STRIP, "m", "outboard edge of the strip along the unfolded span"),
+    _row("strip_chord", _STRIP, "m", "chord of the strip"),
+    _row("row", ("row",), "1", "panel along the chord, 1 at the leading edge", "integer"),
+    _row("edge", ("edge",), "", "edge of a strip: inner or outer", "text"),
 )
 
 _MODES = (
@@ -151,8 +165,35 @@ _EXTRAS = (
     _row("measured_frequency", _MEASURED, "Hz", "measured: frequency"),
 )
 
+_STEADY = (
+    _row("lift_slope", _LOADS, "1/rad", "slope of the lift coefficient, on the developed area"),
+    _row("projected_lift_slope", _LOADS, "1/rad", "the same on the area seen from above"),
+    _row("projected_area", _FOLD, "m^2", "area of the segments seen from above"),
+    _row("lift_coefficient", _LOADS, "1", "lift coefficient on the developed area"),
+    _row("lift", _LOADS, "N", "force up"),
+    _row("side_force", _LOADS, "N", "force outboard, along y"),
+    _row("induced_drag", _LOADS, "N", "induced drag in the Trefftz plane"),
+    _row("least_drag", _LOADS, "N", "least induced drag of this shape for this lift"),
+    _row("efficiency", _LOADS, "1", "least over actual induced drag"),
+    _row("pitching_moment", _LOADS, "N m", "about the elastic axis at the root, nose up"),
+    _row("root_moment", _LOADS, "N m", "about the root along the stream, bending up"),
+    _row("aerodynamic_centre", _LOADS, "1", "fraction of the root chord from its leading edge"),
+    _row("hinge_moment", (*_LOADS, "hinge"), "N m", "of all loads outboard, folding up"),
+    _row("segment_normal_force", _SEGMENT, "N", "force along the normal of the segment"),
+    _row("segment_lift", _SEGMENT, "N", "force up on the segment"),
+    _row("segment_side_force", _SEGMENT, "N", "force outboard on the segment, along y"),
+    _row("segment_pitching_moment", _SEGMENT, "N m", "about its elastic axis, nose up"),
+    _row("segment_bending_moment", _SEGMENT, "N m", "of its own load about its inboard edge, up"),
+    _row("segment_centre_x", _SEGMENT, "1", "centre of pressure, fraction of the chord"),
+    _row("segment_centre_y", _SEGMENT, "1", "centre of pressure, fraction of the span"),
+    _row("circulation", ("fold", "strip"), "m^2/s", "circulation of the strip"),
+    _row("local_lift_coefficient", ("fold", "strip"), "1", "coefficient of the normal force"),
+    _row("panel_circulation", ("fold", "strip", "row"), "m^2/s", "circulation of the panel"),
+    _row("strip_edge", ("fold", "strip", "edge", "axis"), "m", "leading edge on the folded wing"),
+)
+
 VARIABLES: Mapping[str, Variable] = {
-    row.name: row for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS)
+    row.name: row for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS, *_STEADY)
 }
 """Every variable a dataset may hold."""
 

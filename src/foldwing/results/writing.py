@@ -54,7 +54,7 @@ def write_csv(dataset: "xarray.Dataset", path: Path) -> None:
         (row.case, *row.fold, *(_field(row, column) for column in POINT_COLUMNS))
         for row in flutter_rows(dataset)
     )
-    _write_table(path, ("case", *angles, *POINT_COLUMNS), body)
+    write_table(path, ("case", *angles, *POINT_COLUMNS), body)
 
 
 def write_frequencies_csv(dataset: "xarray.Dataset", path: Path) -> None:
@@ -75,14 +75,15 @@ def write_frequencies_csv(dataset: "xarray.Dataset", path: Path) -> None:
         for case in range(dataset.sizes["fold"])
         for mode in range(dataset.sizes["mode"])
     )
-    _write_table(path, ("case", *angles, "mode", *columns), body)
+    write_table(path, ("case", *angles, "mode", *columns), body)
 
 
 def _field(row: Any, column: str) -> Any:
     return getattr(row, "classification" if column == "class" else column)
 
 
-def _write_table(path: Path, head: Iterable[str], body: Iterable[Iterable[Any]]) -> None:
+def write_table(path: Path, head: Iterable[str], body: Iterable[Iterable[Any]]) -> None:
+    """Write a CSV file: a line of names, then numbers in full precision, empty for nan."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(head)

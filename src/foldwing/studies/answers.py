@@ -6,11 +6,14 @@ from typing import Any
 
 import numpy as np
 
+from foldwing.aerodynamics.steady_loads import WingLoads
 from foldwing.results.flutter_table import FlutterRow
+from foldwing.results.steady_table import PER_SEGMENT, WHOLE
 from foldwing.stability.status import Status
 from foldwing.structure.modes import StructuralModes
 from foldwing.studies.boundary import Boundary, Outcome
 from foldwing.studies.case import Case
+from foldwing.studies.steady import SteadyStudy
 
 Answer = dict[str, Any]
 
@@ -54,6 +57,39 @@ def boundary_answer(boundary: Boundary) -> Answer:
     if "turning" in attrs:
         answer["turning_folds"] = [float(angle) for angle in attrs["turning"].split(", ") if angle]
     return answer
+
+
+def steady_answer(study: SteadyStudy) -> Answer:
+    """Return the steady loads of every case, in N, N m and per radian; a failed one says why."""
+    attrs = study.dataset.attrs
+    return {
+        "alpha": attrs["alpha"],
+        "speed": attrs["airspeed"],
+        "reference_area": attrs["reference_area"],
+        "cases": [
+            {
+                "fold": list(outcome.folds),
+                "status": outcome.status.meaning,
+                "loads": [
+                    {"gaps": gaps, **_loads(loads)}
+                    for gaps, loads in zip(study.gaps, outcome.loads, strict=False)
+                ],
+                **({"message": outcome.message} if outcome.message else {}),
+            }
+            for outcome in study.outcomes
+        ],
+    }
+
+
+def _loads(loads: WingLoads) -> Answer:
+    return {
+        **{name: _number(getattr(loads, name)) for name in (*WHOLE, "projected_area")},
+        "hinge_moments": [_number(moment) for moment in loads.hinge_moments],
+        "segments": [
+            {name: _number(getattr(segment, name)) for name in PER_SEGMENT}
+            for segment in loads.segments
+        ],
+    }
 
 
 def _case(outcome: Outcome) -> Answer:
