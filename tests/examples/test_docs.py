@@ -85,7 +85,9 @@ def run_commands(block):
     for line in block.text.splitlines():
         if line.startswith("foldwing "):
             words = shlex.split(line.split(">")[0], comments=True)[1:]
-            draws = words[0] in ("modes", "flutter", "boundary") and "--no-plot" not in words
+            draws = (
+                words[0] in ("modes", "flutter", "boundary", "steady") and "--no-plot" not in words
+            )
             assert run([*words, *(["--no-plot"] if draws else [])]) == 0, line
 
 

@@ -7,6 +7,7 @@ A picture is described once (`picture`) and drawn by two renderers.
 `loci`                      growth and frequency against airspeed; the root locus
 `boundary`                  flutter speed, frequency and strength against the fold angle
 `shapes`                    mode shapes, and the motion at flutter
+`steady`                    circulation of a steady wing
 `determinant`               zero lines of the determinant
 `catalogue`                 which of these a dataset has
 `layout`, `palette`         what they share: labels, ranges, colours by role

@@ -9,6 +9,7 @@ from foldwing.plots.frequencies import natural_frequencies
 from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.picture import Picture
 from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
+from foldwing.plots.steady import circulation, circulation_across, circulation_in_space
 
 if TYPE_CHECKING:
     import xarray
@@ -22,6 +23,9 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     natural_frequencies,
     mode_shapes,
     flutter_phases,
+    circulation,
+    circulation_across,
+    circulation_in_space,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 

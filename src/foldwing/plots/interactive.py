@@ -116,6 +116,8 @@ def _add_axes(
         y["range"] = list(np.log10(panel.y_range) if panel.log_y else panel.y_range)
     if panel.log_y:
         y["type"] = "log"
+    if panel.equal:
+        y |= {"scaleanchor": f"x{suffix}", "scaleratio": 1}
     if panel.y_ticks is not None:
         y |= {
             "tickvals": [at for at, _ in panel.y_ticks],

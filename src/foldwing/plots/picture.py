@@ -137,7 +137,7 @@ Item = Line | Graded | Marks | Area | Rule | Bars | Note | ZeroLine | Cells
 
 @dataclass(frozen=True)
 class Panel:
-    """Axes in the plane with their items, drawn in order."""
+    """Axes in the plane with their items, drawn in order; ``equal``: one scale along both."""
 
     x_label: str
     y_label: str
@@ -148,6 +148,7 @@ class Panel:
     y_ticks: Sequence[tuple[float, str]] | None = None
     title: str = ""
     height: float = 1.0
+    equal: bool = False
 
 
 @dataclass(frozen=True)

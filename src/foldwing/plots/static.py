@@ -115,6 +115,8 @@ def _fill(axes: Axes, panel: Panel, colors: Colors, last: bool) -> None:
         axes.set_xlim(panel.x_range)
     if panel.y_range:
         axes.set_ylim(panel.y_range)
+    if panel.equal:
+        axes.set_aspect("equal", adjustable="datalim")
     if panel.y_ticks is not None:
         axes.set_yticks([at for at, _ in panel.y_ticks], [text for _, text in panel.y_ticks])
         axes.minorticks_off()

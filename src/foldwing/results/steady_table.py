@@ -59,11 +59,11 @@ def loads_table(dataset: "xarray.Dataset") -> Table:
             loads = dataset.isel(fold=case, gap=gap)
             numbers = (
                 _text(loads["lift_slope"], "{:.4g}"),
-                _text(loads["lift"], "{:.4g}"),
-                _text(loads["induced_drag"], "{:.4g}"),
+                _text(loads["lift"], "{:.3g}"),
+                _text(loads["induced_drag"], "{:.3g}"),
                 _text(loads["efficiency"], "{:.3f}"),
                 _text(100.0 * loads["aerodynamic_centre"], "{:.1f}"),
-                *(_text(moment, "{:.4g}") for moment in loads["hinge_moment"].values),
+                *(_text(moment, "{:.3g}") for moment in loads["hinge_moment"].values),
             )
             rows.append((*fold, *[state][: len(gaps) - 1], *numbers))
     return Table(heads, rows)
