@@ -32,6 +32,7 @@ EVERY = {
     "quiet": lambda: datasets.flutter_dataset([]),
     "boundary": datasets.boundary_dataset,
     "all-failed": lambda: datasets.boundary_dataset(30.0, failed=tuple(range(6))),
+    "steady": datasets.steady_dataset,
 }
 
 
@@ -314,6 +315,7 @@ EXPECTED = {
     "quiet": {"growth-and-frequency", "root-locus", "determinant"},
     "boundary": {"boundary", "natural-frequencies"},
     "all-failed": {"boundary"},
+    "steady": {"circulation", "circulation-across", "circulation-in-space"},
 }
 
 

@@ -307,3 +307,12 @@ def boundary_dataset(step: float = 5.0, failed: tuple[int, ...] = (24,)) -> xarr
         {**fold_coords(fold_2), "mode": (("mode",), np.arange(len(NAMES)) + 1)},
         attributes("boundary", swept="fold_2", speed_limit=45.0),
     )
+
+
+def steady_dataset(folds: Any = ((0.0, 0.0), (60.0, -60.0), (180.0, 0.0))) -> xarray.Dataset:
+    """Steady loads with and without gaps; the last case, folded flat, fails."""
+    from foldwing.model import read_model
+    from foldwing.studies.steady import steady_study
+
+    wing = read_model("three-segment").with_gaps("1 mm").with_lattice(chordwise=2, spanwise=9)
+    return steady_study(wing, folds).dataset

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from foldwing.plots.layout import PANEL_INCHES, subtitle
+from foldwing.plots.layout import PANEL_INCHES, WIDTH_INCHES, subtitle
 from foldwing.plots.palette import SERIES
 from foldwing.plots.picture import (
     Area,
@@ -24,7 +24,6 @@ from foldwing.plots.picture import (
     padded,
 )
 from foldwing.plots.shapes import _box, _signs, _size
-from foldwing.plots.static_base import WIDTH
 from foldwing.results.summary import degrees, fold_text
 
 if TYPE_CHECKING:
@@ -106,7 +105,7 @@ def circulation_across(dataset: "xarray.Dataset") -> Picture | None:
                 [*_across(dataset, case, scale), *_labels(dataset, case, x_range, y_range)],
                 x_range,
                 y_range,
-                height=share * (WIDTH - _MARGIN - _RIGHT) / PANEL_INCHES,
+                height=share * (WIDTH_INCHES - _MARGIN - _RIGHT) / PANEL_INCHES,
                 equal=True,
             )
         )

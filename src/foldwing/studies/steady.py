@@ -32,6 +32,10 @@ LEAST_SPEED, MOST_SPEED = 1e-3, 1e5
 
 OPEN, CLOSED = "open", "closed"
 
+NO_LEAST_DRAG = (
+    "The least induced drag of this shape is not known: segments are too close for these strips."
+)
+
 NUMERICAL_FAILURES = (ArithmeticError, np.linalg.LinAlgError, FoldwingError)
 
 Variables = dict[str, Any]
@@ -153,6 +157,8 @@ def _solved(
     angles = radians(folds)
     warning = closeness_warning(wing_strips(wings[0], angles), angles)
     loads = tuple(wing_loads(wing, angles, math.radians(alpha), speed) for wing in wings)
+    if not all(math.isfinite(each.efficiency) for each in loads):
+        warning = f"{warning} {NO_LEAST_DRAG}".strip()
     return SteadyOutcome(folds, loads, warning)
 
 
