@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from foldwing.aerodynamics.lattice import mesh_segments
 from foldwing.aerodynamics.panels import strip_panels
 from foldwing.aerodynamics.steady import at_unit_angle, solve_steady
 from foldwing.aerodynamics.steady_loads import fold_frames, wing_loads, wing_strips
@@ -96,3 +97,45 @@ def test_hinge_moments_are_the_work_of_folding(folds, gap):
         turn = step * np.eye(2)[hinge]
         work = np.sum(force * (middles(angles + turn) - middles(angles - turn)))
         assert moment == pytest.approx(work / (2.0 * step), rel=1e-6, abs=1e-10)
+
+
+@pytest.mark.parametrize("folds", FOLDS)
+def test_moments_of_the_wing_are_the_work_of_turning_it(folds):
+    model, angles = wing(), np.radians(folds)
+    loads = wing_loads(model, angles, 0.07, 12.0)
+    force = model.air.density * 12.0**2 * loads.lattice.forces
+    x, y, z = loads.lattice.places.T
+    nose_up = np.sum(force * np.stack([z, 0.0 * x, -x], axis=1))
+    tip_up = np.sum(force * np.stack([0.0 * x, -z, y], axis=1))
+    assert loads.pitching_moment == pytest.approx(nose_up, rel=1e-12)
+    assert loads.root_moment == pytest.approx(tip_up, rel=1e-12)
+    assert loads.aerodynamic_centre == pytest.approx(0.4 - nose_up / loads.lift / 0.05, rel=1e-12)
+
+
+@pytest.mark.parametrize("folds", FOLDS)
+def test_segment_loads_in_the_plane_of_the_unfolded_segment(folds):
+    model = wing((0.05, 0.04, 0.07))
+    loads = wing_loads(model, np.radians(folds), 0.07, 12.0)
+    panels, density = loads.lattice.panels, model.air.density
+    normal = density * 12.0**2 * np.einsum("nk,nk->n", loads.lattice.forces, panels.normals)
+    of_panel = np.tile(panels.segment, panels.rows)
+    for index, (mesh, segment) in enumerate(zip(mesh_segments(model), loads.segments, strict=True)):
+        x, y = mesh.points(mesh.station(0.25))
+        N, shape = normal[of_panel == index], model.segments[index]
+        assert segment.normal_force == pytest.approx(N.sum(), rel=1e-12)
+        assert segment.pitching_moment == pytest.approx(-N @ x, rel=1e-9, abs=1e-14)
+        assert segment.bending_moment == pytest.approx(N @ y, rel=1e-9, abs=1e-14)
+        centre = (segment.centre_x - 0.4) * shape.chord, segment.centre_y * shape.span
+        assert np.array(centre) * N.sum() == pytest.approx([N @ x, N @ y], rel=1e-9, abs=1e-14)
+
+
+def test_areas_and_coefficients():
+    loads = wing_loads(wing((0.05, 0.04, 0.07)), np.radians((60.0, 120.0)), 0.1, 10.0)
+    areas = 0.14 * 0.05, 0.10 * 0.04, 0.06 * 0.07
+    assert loads.area == pytest.approx(sum(areas))
+    assert loads.projected_area == pytest.approx(areas[0] + 0.5 * areas[1] + areas[2])
+    assert loads.projected_lift_slope * loads.projected_area == pytest.approx(
+        loads.lift_slope * loads.area
+    )
+    assert loads.lift_coefficient == pytest.approx(loads.lift / (0.5 * 1.2 * 100.0 * sum(areas)))
+    assert loads.lift_coefficient == pytest.approx(0.1 * loads.lift_slope)

@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from foldwing.aerodynamics.horseshoe import induced_velocity
+from foldwing.aerodynamics.horseshoe import CHUNK, induced_velocity
 from foldwing.aerodynamics.lattice import COLLOCATION, VORTEX, Strips
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Indices, Real
@@ -121,11 +121,14 @@ class Panels:
         image : bool
             Whether the plane y = 0 mirrors the flow.
         """
-        velocity = induced_velocity(self.points, self.inner, self.outer)
-        if image:
-            other = self.mirrored()
-            velocity = velocity + induced_velocity(self.points, other.inner, other.outer)
-        return np.asarray(np.einsum("msk,mk->ms", velocity, self.normals))
+        sources = (self, self.mirrored()) if image else (self,)
+        wash = np.empty((len(self.points), len(self.points)))
+        step = max(1, CHUNK // len(self.points))  # all components at once would fill the memory
+        for first in range(0, len(self.points), step):
+            here = slice(first, first + step)
+            velocity = sum(induced_velocity(self.points[here], s.inner, s.outer) for s in sources)
+            wash[here] = np.einsum("msk,mk->ms", velocity, self.normals[here])
+        return wash
 
     def force_per_circulation(self) -> Real:
         """Return the force of Kutta and Joukowski per density, airspeed and circulation, (n, 3)."""
