@@ -5,6 +5,8 @@ import pytest
 
 from foldwing.aerodynamics.panels import Trapezoid, strip_panels, swept_panels
 from foldwing.aerodynamics.steady import at_unit_angle, lift_slope
+from foldwing.aerodynamics.steady_loads import wing_loads
+from foldwing.model import read_model
 from support.steady_wings import disc, rectangle
 
 
@@ -30,6 +32,13 @@ def test_order_of_convergence_with_the_width_of_strips():
     values = [slope(rectangle(8, count), 2) for count in (32, 64, 128)]
     ratio = (values[0] - values[1]) / (values[1] - values[2])
     assert np.log2(ratio) == pytest.approx(1.0, abs=0.1)
+
+
+def test_strips_that_end_before_the_tips_meet_the_limit_at_once():
+    """Ending the lattice a quarter of a strip before its tips removes the error of first order."""
+    wing = read_model("three-segment").with_lattice(spacing="inset", spanwise=30)
+    loads = wing_loads(wing, (0.0, 0.0), 0.1, 1.0)
+    assert loads.lift_slope == pytest.approx(RECTANGLES[6], rel=1e-3)
 
 
 def test_circular_wing():
