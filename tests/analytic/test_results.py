@@ -33,6 +33,7 @@ EVERY = {
     "boundary": datasets.boundary_dataset,
     "all-failed": lambda: datasets.boundary_dataset(30.0, failed=tuple(range(6))),
     "convergence": datasets.convergence_dataset,
+    "steady": datasets.steady_dataset,
 }
 
 
@@ -316,6 +317,7 @@ EXPECTED = {
     "boundary": {"boundary", "natural-frequencies"},
     "all-failed": {"boundary"},
     "convergence": {"convergence"},
+    "steady": {"circulation", "circulation-across", "circulation-in-space"},
 }
 
 

@@ -116,5 +116,6 @@ def no_computing(monkeypatch: pytest.MonkeyPatch) -> None:
         "flutter.solve_case",
         "convergence.solve_case",
         "modes.follow_modes",
+        "steady.wing_loads",
     ):
         monkeypatch.setattr(f"foldwing.studies.{name}", computed)

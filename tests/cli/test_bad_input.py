@@ -69,6 +69,22 @@ CASES = [
     (("flutter", THREE, "--speeds", "nan"), "--speeds", "'nan'", "finite", "0:60:1"),
     (("flutter", THREE, "--speeds", "0:inf:1"), "--speeds", "'0:inf:1'", "finite", "0:60:1"),
     (("flutter", THREE, "--speeds", "0:1e7:1"), "--speeds", "1e7", "at most 100000", "larger step"),
+    # lists
+    (("modes", THREE, "--fold2", "0,x,60"), "--fold2", "'0,x,60'", "made of numbers", "0,60,90"),
+    (("modes", THREE, "--fold2", "0,,60"), "--fold2", "'0,,60'", "made of numbers", "0,60,90"),
+    (("modes", THREE, "--fold2", "0,inf"), "--fold2", "'0,inf'", "finite", "0,60,90"),
+    (("modes", THREE, "--fold2", "0,10:0:5"), "--fold2", "'0,10:0:5'", "start to stop", "0:10:5"),
+    (("modes", THREE, "--fold2", "0,1:2"), "--fold2", "'0,1:2'", "or a list", "0,60,90"),
+    (("flutter", THREE, "--speeds", "0,40,20"), "--speeds", "'0,40,20'", "ascend", "0:60:1"),
+    # steady
+    (("steady", THREE, "--alpha", "21"), "--alpha", "21.0", "-20 to 20 degrees", "stall"),
+    (("steady", THREE, "--alpha", "nan"), "--alpha", "nan", "-20 to 20 degrees", "linear"),
+    (("steady", THREE, "--alpha", "5deg"), "--alpha", "'5deg'", "a number", "--alpha 5"),
+    (("steady", THREE, "--speed", "0"), "--speed", "0.0", "0.001 to 100000 m/s", "such as 20"),
+    (("steady", THREE, "--gap", "20 cm"), "--gap", "0.2", "gaps must leave some", "narrower"),
+    (("steady", THREE, "--gap", "-1 mm"), "--gap", "-1 mm", "at least 0"),
+    (("steady", THREE, "--panels", "8x2"), "--panels", "2", "each of 3 segments", "larger"),
+    (("steady", THREE, "--basis", "converged"), "--basis", "-h"),
     # numbers
     (("flutter", THREE, "--max-speed", "0"), "--max-speed", "0.0", "0.001 to 100000 m/s", "as 60"),
     (("boundary", THREE, "--max-speed", "-5"), "--max-speed", "-5.0", "0.001 to", "as 60"),

@@ -353,3 +353,12 @@ def convergence_dataset() -> xarray.Dataset:
     }
     attrs = attributes("convergence", speed_limit=40.0)
     return build_dataset(variables | table_variables(rows), coords, attrs)
+
+
+def steady_dataset(folds: Any = ((0.0, 0.0), (60.0, -60.0), (180.0, 0.0))) -> xarray.Dataset:
+    """Steady loads with and without gaps; the last case, folded flat, fails."""
+    from foldwing.model import read_model
+    from foldwing.studies.steady import steady_study
+
+    wing = read_model("three-segment").with_gaps("1 mm").with_lattice(chordwise=2, spanwise=9)
+    return steady_study(wing, folds).dataset

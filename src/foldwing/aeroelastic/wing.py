@@ -1,6 +1,7 @@
 """From a wing to its aeroelastic system: what depends on the fold angles and what does not."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -135,19 +136,7 @@ class AeroelasticWing:
         """
         if self.aerodynamics != "lattice":
             return ""
-        near = closeness(self.strips(modes))
-        pair = f"segments {near.segment + 1} and {near.other + 1}"
-        if near.ratio < TOUCHING:
-            folds = ", ".join(f"{math.degrees(angle):g}" for angle in modes.fold_angles)
-            limit = f"{pair} lie on each other, {round(1e3 * near.distance, 6):g} mm apart"
-            remedy = "A vortex lattice cannot be folded flat: change the angle by some degrees."
-            raise InputError("fold", folds, limit, remedy)
-        if near.ratio < CLOSE:
-            return (
-                f"{pair} come within {1e3 * near.distance:.2g} mm of each other, "
-                f"{near.ratio:.2g} widths of a strip: the lattice is inaccurate there."
-            )
-        return ""
+        return closeness_warning(self.strips(modes), modes.fold_angles)
 
     def influence(self, modes: StructuralModes) -> Influence:
         """Return the influence of the vortices of the folded wing and its wake."""
@@ -200,6 +189,35 @@ class AeroelasticWing:
     def system(self, modes: StructuralModes) -> AeroelasticSystem:
         """Return the aeroelastic problem of the modes in the airstream."""
         return AeroelasticSystem(modes.omega, self.aerodynamic_model(modes), modes.damping)
+
+
+def closeness_warning(strips: Strips, fold_angles: Sequence[float]) -> str:
+    """Return in words that segments come too close for a lattice, empty when they do not.
+
+    Parameters
+    ----------
+    strips : Strips
+    fold_angles : sequence of float
+        psi_2 .. psi_N in radians, for the message.
+
+    Raises
+    ------
+    InputError
+        When segments lie on each other.
+    """
+    near = closeness(strips)
+    pair = f"segments {near.segment + 1} and {near.other + 1}"
+    if near.ratio < TOUCHING:
+        folds = ", ".join(f"{math.degrees(angle):g}" for angle in fold_angles)
+        limit = f"{pair} lie on each other, {1e3 * near.distance:.2g} mm apart"
+        remedy = "A vortex lattice cannot be folded flat: change the angle by some degrees."
+        raise InputError("fold", folds, limit, remedy)
+    if near.ratio < CLOSE:
+        return (
+            f"{pair} come within {1e3 * near.distance:.2g} mm of each other, "
+            f"{near.ratio:.2g} widths of a strip: the lattice is inaccurate there."
+        )
+    return ""
 
 
 def _panel_motion(component: ComponentModes, mesh: SegmentMesh, length: Real) -> PanelMotion:

@@ -199,3 +199,35 @@ def convergence(
         levels=levels,
     )
     run_convergence(request, Output(plot, out, force, json))
+
+
+@app.command()
+def steady(
+    model: options.Model,
+    fold: options.Fold = None,
+    fold_of: options.FoldOf = None,
+    alpha: options.Alpha = "5",
+    speed: options.Speed = "20",
+    panels: options.Panels = None,
+    gap: options.Gap = None,
+    image: options.Image = False,
+    plot: options.Plot = True,
+    out: options.Out = None,
+    force: options.Force = False,
+    json: options.Json = False,
+) -> None:
+    """Steady lift, induced drag, hinge moments and circulation by the vortex lattice."""
+    from foldwing.cli.commands import Output
+    from foldwing.cli.steady import SteadyRequest, run_steady
+
+    request = SteadyRequest(
+        model,
+        fold,
+        fold_of,
+        panels=panels,
+        gap=gap,
+        alpha=options.given_number("--alpha", alpha, "5"),
+        speed=options.given_number("--speed", speed, "20"),
+        image=image,
+    )
+    run_steady(request, Output(plot, out, force, json))

@@ -360,6 +360,7 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
         write_csv,
         write_dataset,
         write_frequencies_csv,
+        write_steady_csv,
     )
 
     if output.out is None:  # another run may have taken the dated name meanwhile
@@ -372,6 +373,8 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
             write_csv(dataset, staging / "flutter_points.csv")
         if "level_speed" in dataset:
             write_convergence_csv(dataset, staging)
+        if "lift_slope" in dataset:
+            write_steady_csv(dataset, staging)
         if output.plot:
             from foldwing.plots import write_pictures, write_report
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from foldwing.model import ExampleInfo
     from foldwing.results import FlutterRow
+    from foldwing.stability.status import Status
     from foldwing.studies.boundary import Outcome
 
 MOST_ROWS = 40
@@ -141,8 +142,7 @@ def name_failures(outcomes: "Sequence[Outcome]", wanted: int) -> None:
     for outcome in outcomes:
         if outcome.status:
             reason = outcome.message or "the count of unstable roots does not agree"
-            where = _fold(outcome.folds) or "this wing"
-            _say(f"{where}: {outcome.status.meaning}: {reason}")
+            name_failure(outcome.folds, outcome.status, reason)
     if len(outcomes) < wanted:
         _say(f"Interrupted: {len(outcomes)} of {wanted} cases are finished and were kept.")
 
@@ -151,6 +151,11 @@ def name_problems(texts: Sequence[str]) -> None:
     """Say on standard error what failed, a line each."""
     for text in texts:
         _say(text)
+
+
+def name_failure(folds: Sequence[float], status: "Status", reason: str) -> None:
+    """Say on standard error how a case ended and why."""
+    _say(f"{_fold(folds) or 'this wing'}: {status.meaning}: {reason}")
 
 
 @contextlib.contextmanager

@@ -9,6 +9,7 @@ A picture is described once (`picture`) and drawn by two renderers.
 `shapes`                    mode shapes, and the motion at flutter
 `energy`                    the work of the air on segments and modes at flutter
 `loads`                     pressure and circulation at flutter
+`steady`                    circulation of a steady wing
 `determinant`               zero lines of the determinant
 `convergence`               airspeeds against the fineness of the computation
 `catalogue`                 which of these a dataset has

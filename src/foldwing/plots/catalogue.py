@@ -8,10 +8,11 @@ from foldwing.plots.convergence import convergence
 from foldwing.plots.determinant import determinant_contours
 from foldwing.plots.energy import work_of_modes, work_of_segments
 from foldwing.plots.frequencies import natural_frequencies
-from foldwing.plots.loads import circulation, pressure, pressure_of_modes
+from foldwing.plots.loads import flutter_circulation, pressure, pressure_of_modes
 from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.picture import Picture
 from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
+from foldwing.plots.steady import circulation, circulation_across, circulation_in_space
 
 if TYPE_CHECKING:
     import xarray
@@ -29,8 +30,11 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     work_of_modes,
     pressure,
     pressure_of_modes,
-    circulation,
+    flutter_circulation,
     convergence,
+    circulation,
+    circulation_across,
+    circulation_in_space,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 

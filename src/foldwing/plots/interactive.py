@@ -6,7 +6,7 @@ are first written as roles (``@ink``, ``@series1/0.2``), so that one figure serv
 """
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from foldwing.plots.picture import (
     Note,
     Panel,
     Picture,
+    Range,
     Rule,
     ZeroLine,
 )
@@ -117,35 +118,36 @@ def _color(colors: Mapping[str, str], role: str, opacity: str | None) -> str:
 
 
 def _add_axes(layout: Json, panel: Panel, number: int, domain: Domain, last: bool) -> None:
-    line = {"gridcolor": "@grid", "zeroline": False, "linecolor": "@muted", "showline": True}
     suffix = "" if number == 1 else str(number)
     across, upright = domain
     shown = last or across is not None
-    x: Json = {**line, "anchor": f"y{suffix}", "showticklabels": shown, "ticks": "outside"}
+    x = _axis(panel.x_label if shown else "", panel.x_range, panel.log_x, panel.x_ticks)
+    x |= {"anchor": f"y{suffix}", "showticklabels": shown, "ticks": "outside"}
     x |= {"tickcolor": "@muted", "ticklen": 4}
-    if shown:
-        x["title"] = {"text": panel.x_label, "standoff": 8}
     if across is not None:
         x["domain"] = list(across)
     elif number > 1:
         x["matches"] = "x"
-    if panel.x_range:
-        x["range"] = list(np.log10(panel.x_range) if panel.log_x else panel.x_range)
-    if panel.log_x:
-        x["type"] = "log"
-    y: Json = {**line, "domain": list(upright), "title": {"text": panel.y_label, "standoff": 8}}
+    y = _axis(panel.y_label, panel.y_range, panel.log_y, panel.y_ticks)
+    y |= {"domain": list(upright)}
     y |= {"anchor": f"x{suffix}"} if across is not None else {}
-    if panel.y_range:
-        y["range"] = list(np.log10(panel.y_range) if panel.log_y else panel.y_range)
-    if panel.log_y:
-        y["type"] = "log"
-    for axis, ticks in ((x, panel.x_ticks), (y, panel.y_ticks)):
-        if ticks is not None:
-            axis |= {
-                "tickvals": [at for at, _ in ticks],
-                "ticktext": [text for _, text in ticks],
-            }
+    y |= {"scaleanchor": f"x{suffix}", "scaleratio": 1} if panel.equal else {}
     layout[f"xaxis{suffix}"], layout[f"yaxis{suffix}"] = x, y
+
+
+def _axis(
+    label: str, limits: Range | None, log: bool, ticks: Sequence[tuple[float, str]] | None
+) -> Json:
+    axis: Json = {"gridcolor": "@grid", "zeroline": False, "linecolor": "@muted", "showline": True}
+    if label:
+        axis["title"] = {"text": label, "standoff": 8}
+    if limits:
+        axis["range"] = list(np.log10(limits) if log else limits)
+    if log:
+        axis["type"] = "log"
+    if ticks is not None:
+        axis |= {"tickvals": [at for at, _ in ticks], "ticktext": [text for _, text in ticks]}
+    return axis
 
 
 def _add_item(data: list[Json], layout: Json, item: Any, panel: Panel, number: int) -> None:

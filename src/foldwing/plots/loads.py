@@ -76,7 +76,7 @@ def pressure_of_modes(dataset: "xarray.Dataset") -> Picture | None:
     )
 
 
-def circulation(dataset: "xarray.Dataset") -> Picture | None:
+def flutter_circulation(dataset: "xarray.Dataset") -> Picture | None:
     """Draw the circulation along the folded span at the lowest flutter onsets."""
     found = onsets(dataset)[:_MOST_ONSETS]
     if "circulation" not in dataset or not found:

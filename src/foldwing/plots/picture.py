@@ -137,7 +137,7 @@ Item = Line | Graded | Marks | Area | Rule | Bars | Note | ZeroLine | Cells
 
 @dataclass(frozen=True)
 class Panel:
-    """Axes in the plane with their items, drawn in order."""
+    """Axes in the plane with their items, drawn in order; ``equal``: one scale along both."""
 
     x_label: str
     y_label: str
@@ -150,6 +150,7 @@ class Panel:
     height: float = 1.0
     log_x: bool = False
     x_ticks: Sequence[tuple[float, str]] | None = None
+    equal: bool = False
 
 
 @dataclass(frozen=True)

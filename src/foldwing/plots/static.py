@@ -126,6 +126,8 @@ def _fill(axes: Axes, panel: Panel, colors: Colors, last: bool) -> None:
         axes.set_xlim(panel.x_range)
     if panel.y_range:
         axes.set_ylim(panel.y_range)
+    if panel.equal:
+        axes.set_aspect("equal", adjustable="datalim")
     _set_ticks(axes, panel)
     _add_scale(axes, panel, colors)
 

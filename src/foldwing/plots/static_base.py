@@ -7,11 +7,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
+from foldwing.plots.layout import WIDTH_INCHES
 from foldwing.plots.palette import SCALES
 
 Colors = Mapping[str, str]
 
-WIDTH = 8.0
+WIDTH = WIDTH_INCHES
 LINE = 0.19
 """Height of a line of caption or legend in inches."""
 

@@ -6,12 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from foldwing.aerodynamics.steady_loads import WingLoads
 from foldwing.results.flutter_table import FlutterRow
+from foldwing.results.steady_table import PER_SEGMENT, WHOLE
 from foldwing.stability.status import Status
 from foldwing.structure.modes import StructuralModes
 from foldwing.studies.boundary import Boundary, Outcome
 from foldwing.studies.case import Case
 from foldwing.studies.convergence import ConvergenceStudy
+from foldwing.studies.steady import SteadyStudy
 
 if TYPE_CHECKING:
     import xarray
@@ -97,6 +100,39 @@ def _convergence(dataset: "xarray.Dataset", row: int, point: int) -> Answer:
         "levels": [
             {"value": float(value), "own": bool(own), "speed": _number(u), "frequency": _number(f)}
             for value, own, u, f in zip(*columns.values(), strict=True)
+        ],
+    }
+
+
+def steady_answer(study: SteadyStudy) -> Answer:
+    """Return the steady loads of every case, in N, N m and per radian; a failed one says why."""
+    attrs = study.dataset.attrs
+    return {
+        "alpha": attrs["alpha"],
+        "speed": attrs["airspeed"],
+        "reference_area": attrs["reference_area"],
+        "cases": [
+            {
+                "fold": list(outcome.folds),
+                "status": outcome.status.meaning,
+                "loads": [
+                    {"gaps": gaps, **_loads(loads)}
+                    for gaps, loads in zip(study.gaps, outcome.loads, strict=False)
+                ],
+                **({"message": outcome.message} if outcome.message else {}),
+            }
+            for outcome in study.outcomes
+        ],
+    }
+
+
+def _loads(loads: WingLoads) -> Answer:
+    return {
+        **{name: _number(getattr(loads, name)) for name in (*WHOLE, "projected_area")},
+        "hinge_moments": [_number(moment) for moment in loads.hinge_moments],
+        "segments": [
+            {name: _number(getattr(segment, name)) for name in PER_SEGMENT}
+            for segment in loads.segments
         ],
     }
 
