@@ -14,7 +14,7 @@ import scipy.linalg
 
 from foldwing.maths.arrays import Indices, Real
 
-ROUND_OFF = 1e-14
+ROUND_OFF = 3e-14
 """What the skeleton leaves of any row, relative to that row."""
 
 COLUMNS, SPARE = 48, 8
