@@ -35,7 +35,7 @@ MARGIN = 0.1
 """Share of the tolerance that the combinations must meet, so that single entries meet it too."""
 
 NEAR = 1e-9
-"""Distance from a support point, relative to the range, within which R follows its tangent."""
+"""Distance from a support point, relative to the range, within which R counts as its value."""
 
 
 @dataclass(frozen=True)
@@ -95,17 +95,15 @@ class RationalModel:
         flat = self.values.reshape(len(self.values), -1)
         offset = p[:, None] - self.support
         row, own = np.nonzero(np.abs(offset) < NEAR * self.highest_frequency)
-        beside = offset[row, own]
         offset[row, own] = np.inf
         share = self.weights / offset
         total = share.sum(axis=1)[:, None]
         value, slope = share / total, share / offset / total
-        # On a support point both sums are infinite: value and slope there, then along the tangent.
+        # On a support point both sums are infinite: R is its value there.
         value[row], slope[row] = 0.0, -share[row] / self.weights[own, None]
         value[row, own] = 1.0
         Q = value @ flat
         dQ = slope.sum(axis=1)[:, None] * Q - slope @ flat
-        Q[row] += beside[:, None] * dQ[row]
         shape = (len(p), self.size, self.size)
         return Q.reshape(shape), dQ.reshape(shape)
 
