@@ -1,7 +1,8 @@
 """How accurate and how fast is the vortex lattice, beside other open codes?
 
-Each code solves the same flat rectangular wing with the same 8 x 60 equal panels on one core; times
-are medians of warm runs, without imports and compilation. What is compared:
+Each code solves the same flat rectangular wing with the same 8 x 60 equal panels on one core; two
+rows more show strips that lie otherwise. Times are medians of warm runs (one warm run for the
+doublet lattice), without imports and compilation. What is compared:
 
     foldwing        horseshoes; the lift slope from one real solve, the unsteady forces of all
                     frequencies and modes from one set-up
@@ -11,7 +12,8 @@ are medians of warm runs, without imports and compilation. What is compared:
                     influence coefficients, inverted, for each frequency; it serves any modes
 
 The doublet lattice is an independent theory of the same flow: its forces must agree with ours as
-far as panels allow. A folded wing turned about the stream as a whole must keep its forces.
+far as panels allow. A folded wing turned about the stream as a whole must keep its forces; past 90
+degrees PanelAero itself warns of panels upside down.
 
 The other codes come with ``pip install -e '.[peers]'``; what is not installed is left out.
 """
