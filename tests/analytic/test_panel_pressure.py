@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from foldwing.aerodynamics.horseshoe import induced_velocity
+from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.lattice import Strips
 from foldwing.aerodynamics.panel_loads import panel_corners, panel_loads
-from foldwing.aerodynamics.unsteady import Influence, PanelMotion
+from foldwing.aerodynamics.unsteady import PanelMotion
 from foldwing.aeroelastic.loads import Motions, loads_of, panel_grid
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.maths.bessel import theodorsen

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from foldwing.aerodynamics.unsteady import Influence, lattice_model
+from foldwing.aerodynamics.influence import Influence
+from foldwing.aerodynamics.unsteady import lattice_model
 from foldwing.maths.bessel import theodorsen
 from support.lattices import direct_forces, section_lattice, small, three_segment, unequal_chords
 

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
+from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.lattice import mesh_segments
 from foldwing.aerodynamics.panels import strip_panels
 from foldwing.aerodynamics.steady import at_unit_angle, solve_steady
 from foldwing.aerodynamics.steady_loads import fold_frames, wing_loads, wing_strips
-from foldwing.aerodynamics.unsteady import Influence, PanelMotion, lattice_model
+from foldwing.aerodynamics.unsteady import PanelMotion, lattice_model
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.model import Segment, read_model
 

@@ -5,8 +5,9 @@ from functools import cache
 import numpy as np
 
 from foldwing.aerodynamics.horseshoe import induced_velocity
+from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.lattice import SegmentMesh, Strips
-from foldwing.aerodynamics.unsteady import Influence, PanelMotion, lattice_model, load_length
+from foldwing.aerodynamics.unsteady import PanelMotion, lattice_model, load_length
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.model import Lattice, Segment, Wing, read_model
 

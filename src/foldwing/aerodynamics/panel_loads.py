@@ -22,15 +22,11 @@ from functools import cached_property
 
 import numpy as np
 
+from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.lattice import VORTEX, Strips
 from foldwing.aerodynamics.schemes import Rates, TimeScheme
-from foldwing.aerodynamics.unsteady import (
-    PRINTED_END,
-    WAKE_END,
-    Influence,
-    PanelMotion,
-    shed_factors,
-)
+from foldwing.aerodynamics.unsteady import PRINTED_END, WAKE_END, PanelMotion
+from foldwing.aerodynamics.wake import shed
 from foldwing.maths.arrays import Complex, Indices, Real
 from foldwing.model import Lattice
 
@@ -145,7 +141,7 @@ def _wake_influence(influence: Influence, r: Complex, relaxation: float) -> Comp
     """Return the wash of the wake of each strip per unit circulation, (m, panels, strips)."""
     wake = np.zeros((len(r), influence.count, influence.strips.count), complex)
     for group, strips in enumerate(influence.groups):
-        omega = shed_factors(r * influence.step(group), influence.rows, relaxation)
+        omega = shed(r * influence.step(group), influence.rows, relaxation)
         own = np.zeros((len(r), influence.count, len(strips)), complex)
         for factor, A in zip(omega.T, influence.wake_rows(group), strict=True):
             own.real += factor.real[:, None, None] * A

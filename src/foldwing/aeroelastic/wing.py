@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.lattice import (
     SegmentMesh,
     Strips,
@@ -16,13 +17,7 @@ from foldwing.aerodynamics.lattice import (
 )
 from foldwing.aerodynamics.port import AerodynamicModel
 from foldwing.aerodynamics.strip import StripForces, StripModel, strip_forces, strip_model
-from foldwing.aerodynamics.unsteady import (
-    Influence,
-    LatticeModel,
-    PanelMotion,
-    lattice_model,
-    load_length,
-)
+from foldwing.aerodynamics.unsteady import LatticeModel, PanelMotion, lattice_model, load_length
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
