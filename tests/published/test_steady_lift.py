@@ -15,7 +15,7 @@ def slope(strips, chordwise=4):
     return lift_slope(at_unit_angle(panels), panels.area)
 
 
-# Aspect ratio -> limit of the lifting-surface equation for a flat rectangle, per radian.
+# Aspect ratio -> lift slope of a flat rectangle per radian, extrapolated by another implementation.
 RECTANGLES = {
     1: 1.4595, 2: 2.4734, 4: 3.6111, 6: 4.2138, 8: 4.5853, 12: 5.0210, 20: 5.4329,
 }  # fmt: skip
