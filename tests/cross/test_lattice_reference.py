@@ -5,13 +5,14 @@ state; the fast form sums the wake in closed form and solves a nonlinear problem
 modes. They share the influence of a vortex and the motion of the wing, nothing else.
 """
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
 from foldwing.aeroelastic.reference import Reference
-from foldwing.aeroelastic.reference_loci import follow
+from foldwing.aeroelastic.reference_loci import advance, follow
 from foldwing.aeroelastic.reference_roots import roots_near
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
@@ -136,6 +137,31 @@ def test_modes_are_followed_to_the_same_roots_as_by_the_fast_form():
     assert compared >= 50
 
 
+@pytest.mark.parametrize("speeds", [[30.0], [12.0, 30.0]])
+def test_modes_keep_their_vectors_over_long_steps(speeds):
+    reference = Reference(wing_of(), modes_of())
+    far = follow(reference, np.array(speeds))[-1]
+    near = follow(reference, np.linspace(1.0, 30.0, 30))[-1]
+    assert far.found.sum() >= 7
+    np.testing.assert_allclose(far.eigenvalue[far.found], near.eigenvalue[far.found], rtol=1e-9)
+
+
+def test_a_lost_mode_is_sought_from_half_way():
+    reference = Reference(wing_of(), modes_of())
+    start = follow(reference, np.array([4.0, 7.0, 10.0]))[-1]
+    assert not advance(reference, start, 30.0, halvings=0).found[:9].all()
+    assert advance(reference, start, 30.0).found[:9].all()
+
+
+def test_a_mode_goes_on_with_the_like_vector_not_the_nearest_root():
+    reference = Reference(wing_of(), modes_of())
+    start = follow(reference, np.linspace(2.0, 20.0, 10))[-1]
+    right = advance(reference, start, 20.5)
+    astray = 0.8 * (start.eigenvalue[2] - start.eigenvalue[1]) * (np.arange(12) == 1)
+    found = advance(reference, replace(start, drift=start.drift + astray), 20.5)
+    assert found.eigenvalue[1] == pytest.approx(right.eigenvalue[1], rel=1e-9)
+
+
 def test_a_mode_too_fast_for_the_steps_begins_when_they_are_short_enough():
     model, modes = wing_of(), modes_of()
     speeds = np.array([6.0, 14.0, 26.0])
@@ -163,7 +189,14 @@ def test_the_growth_changes_sign_at_the_flutter_point_of_the_fast_form():
 
 @pytest.mark.parametrize(
     ("speed", "step", "panels"),
-    [(10.0, 1e-3, 5), (20.0, 1e-3, 2), (22.0, 1e-3, 2), (90.0, 1e-3, 1), (5.0, 2.4e-3, 4)],
+    [
+        (10.0, 1e-3, 5),
+        (20.0, 1e-3, 2),
+        (20.0, 0.9e-3, 3),
+        (22.0, 1e-3, 2),
+        (90.0, 1e-3, 1),
+        (5.0, 2.4e-3, 4),
+    ],
 )
 def test_a_fixed_step_takes_the_panels_that_fit_the_chord(speed, step, panels):
     marching = Reference(wing_of(), modes_of(), step).at(speed)

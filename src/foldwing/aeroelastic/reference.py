@@ -299,6 +299,13 @@ class Reference:
             raise InputError("--time-step", self.time_step, limit, remedy)
         return count
 
+    @property
+    def slowest(self) -> float:
+        """Airspeed in m/s above which a fixed time step takes no more panels than allowed."""
+        if self.time_step is None:
+            return 0.0
+        return self.model.wing.segments[0].chord / (MOST_CHORDWISE * self.time_step)
+
     def at(self, airspeed: float) -> Marching:
         """Return the equations at an airspeed in m/s, greater than 0."""
         return self._lattice(self.chordwise(airspeed)).at(airspeed)

@@ -6,6 +6,7 @@ an earlier shift covers need none of their own. Where a mode is lost, the airspe
 passed through first.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -18,6 +19,9 @@ from foldwing.stability.status import Spectrum, Status
 
 LEAST_MAC = 0.6
 """Structural vectors of a mode at consecutive airspeeds must be at least this alike."""
+
+LONGEST_STEP = 0.25
+"""Modes pass through airspeeds in between where the next one is further by more than this of it."""
 
 HALVINGS = 3
 """How often the way to the next airspeed is halved before a mode is given up."""
@@ -121,7 +125,10 @@ def follow(
     states = []
     state = at_rest(reference.modes.count)
     for done, speed in enumerate(speeds, start=1):
-        state = advance(reference, state, float(speed))
+        steps = math.ceil((speed - state.airspeed) / (LONGEST_STEP * speed) - 1e-9)
+        for passed in np.linspace(state.airspeed, speed, steps + 1)[1:]:
+            if passed > reference.slowest or passed == speed:
+                state = advance(reference, state, float(passed))
         states.append(state)
         progress(done)
     return states
@@ -136,10 +143,11 @@ def advance(
     found = _matched(marching, state, slow)
     lost = state.found & (found.status == Status.NOT_CONVERGED)
     lost |= state.found & (found.status == Status.COLLAPSED)
-    if not lost.any() or halvings == 0:
+    halfway = (state.airspeed + airspeed) / 2.0
+    if not lost.any() or halvings == 0 or halfway <= reference.slowest:
         return found
     only = replace(state, status=np.where(lost, state.status, int(Status.ABSENT)))
-    middle = advance(reference, only, (state.airspeed + airspeed) / 2.0, halvings - 1)
+    middle = advance(reference, only, halfway, halvings - 1)
     again = _matched(marching, middle, slow)
     return _without_doubles(found.with_modes(lost & again.found, again))
 
