@@ -18,7 +18,7 @@ OPTIONS = {
     "examples": {"--copy"},
     "schema": set(),
     "modes": OF_A_MODEL | {"--measured"},
-    "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds"},
+    "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds", "--method", "--time-step"},
     "boundary": OF_A_MODEL | OF_A_SEARCH | {"--measured", "--trace", "--jobs"},
 }
 

@@ -51,6 +51,11 @@ def growing_slowly(problem, spectrum):
     return p[(p.imag > 0.01) & (p.real > -0.1)]
 
 
+def followed(reference, speeds):
+    """The modes at the last airspeed."""
+    return list(follow(reference, speeds))[-1]
+
+
 @pytest.mark.parametrize(
     "case",
     [
@@ -125,7 +130,7 @@ def test_without_air_the_modes_stand_alone():
 def test_modes_are_followed_to_the_same_roots_as_by_the_fast_form():
     model, modes = wing_of(), modes_of()
     speeds = np.linspace(3.0, 30.0, 10)
-    states = follow(Reference(model, modes), speeds)
+    states = list(follow(Reference(model, modes), speeds))
     loci = track(model.system(modes), speeds)
     compared = 0
     for row, state in enumerate(states):
@@ -140,22 +145,22 @@ def test_modes_are_followed_to_the_same_roots_as_by_the_fast_form():
 @pytest.mark.parametrize("speeds", [[30.0], [12.0, 30.0]])
 def test_modes_keep_their_vectors_over_long_steps(speeds):
     reference = Reference(wing_of(), modes_of())
-    far = follow(reference, np.array(speeds))[-1]
-    near = follow(reference, np.linspace(1.0, 30.0, 30))[-1]
+    far = followed(reference, np.array(speeds))
+    near = followed(reference, np.linspace(1.0, 30.0, 30))
     assert far.found.sum() >= 7
     np.testing.assert_allclose(far.eigenvalue[far.found], near.eigenvalue[far.found], rtol=1e-9)
 
 
 def test_a_lost_mode_is_sought_from_half_way():
     reference = Reference(wing_of(), modes_of())
-    start = follow(reference, np.array([4.0, 7.0, 10.0]))[-1]
+    start = followed(reference, np.array([4.0, 7.0, 10.0]))
     assert not advance(reference, start, 30.0, halvings=0).found[:9].all()
     assert advance(reference, start, 30.0).found[:9].all()
 
 
 def test_a_mode_goes_on_with_the_like_vector_not_the_nearest_root():
     reference = Reference(wing_of(), modes_of())
-    start = follow(reference, np.linspace(2.0, 20.0, 10))[-1]
+    start = followed(reference, np.linspace(2.0, 20.0, 10))
     right = advance(reference, start, 20.5)
     astray = 0.8 * (start.eigenvalue[2] - start.eigenvalue[1]) * (np.arange(12) == 1)
     found = advance(reference, replace(start, drift=start.drift + astray), 20.5)
@@ -165,7 +170,7 @@ def test_a_mode_goes_on_with_the_like_vector_not_the_nearest_root():
 def test_a_mode_too_fast_for_the_steps_begins_when_they_are_short_enough():
     model, modes = wing_of(), modes_of()
     speeds = np.array([6.0, 14.0, 26.0])
-    states = follow(Reference(model, modes), speeds)
+    states = list(follow(Reference(model, modes), speeds))
     for speed, state in zip(speeds, states, strict=True):
         step = 0.05 / 2 / speed
         expected = np.where(modes.omega * step < np.pi / 2, Status.OK, Status.UNRESOLVED)

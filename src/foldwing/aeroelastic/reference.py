@@ -252,6 +252,13 @@ def check_reference(model: AeroelasticWing) -> None:
         raise InputError("lattice.scheme", scheme, limit, 'Take scheme = "average".')
 
 
+def check_time_step(time_step: float | None) -> None:
+    """Raise `InputError` unless the time step in seconds is left open or is a time."""
+    if time_step is not None and not 0.0 < time_step < np.inf:
+        remedy = "Write it in seconds, for example --time-step 0.0003."
+        raise InputError("--time-step", time_step, "must be greater than 0 s", remedy)
+
+
 @dataclass(frozen=True)
 class Reference:
     """The coupled equations of a wing at any airspeed.
@@ -277,9 +284,7 @@ class Reference:
     def __post_init__(self) -> None:
         """Refuse what cannot be marched, before any computing."""
         check_reference(self.model)
-        if self.time_step is not None and not 0.0 < self.time_step < np.inf:
-            remedy = "Write it in seconds, for example --time-step 0.0003."
-            raise InputError("--time-step", self.time_step, "must be greater than 0 s", remedy)
+        check_time_step(self.time_step)
 
     def chordwise(self, airspeed: float) -> int:
         """Return the number of panels along the chord at an airspeed in m/s.

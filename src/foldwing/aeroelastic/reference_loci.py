@@ -7,7 +7,7 @@ passed through first.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -34,6 +34,9 @@ SAME_ROOT = 1e-7
 
 NEAR_REAL = 0.2
 """A mode lost with |Im| below this fraction of its modulus has reached the real axis."""
+
+REAL = 1e-6
+"""Share of Im in the modulus of a root below which it is real."""
 
 HIGHEST_PHASE = np.pi / 2.0
 """Phase that a mode at rest may turn in one step; faster ones the lattice does not resolve."""
@@ -103,35 +106,28 @@ def at_rest(count: int) -> FollowedModes:
     )
 
 
-def follow(
-    reference: Reference, speeds: Real, progress: Callable[[int], None] = lambda _: None
-) -> list[FollowedModes]:
-    """Follow every mode over ascending airspeeds.
+def follow(reference: Reference, speeds: Real) -> Iterator[FollowedModes]:
+    """Follow every mode over ascending airspeeds; give the modes at each as soon as it is done.
 
     Parameters
     ----------
     reference : Reference
     speeds : array, shape (u,)
         In m/s, ascending, greater than 0.
-    progress : callable
-        Told the number of airspeeds done.
 
-    Returns
-    -------
-    list of FollowedModes
-        One for each airspeed. A mode too fast for the steps at an airspeed is ``unresolved`` there
-        and begins later; one that is lost stays lost.
+    Yields
+    ------
+    FollowedModes
+        A mode too fast for the steps at an airspeed is ``unresolved`` there and begins later; one
+        that is lost stays lost.
     """
-    states = []
     state = at_rest(reference.modes.count)
-    for done, speed in enumerate(speeds, start=1):
+    for speed in speeds.tolist():
         steps = math.ceil((speed - state.airspeed) / (LONGEST_STEP * speed) - 1e-9)
-        for passed in np.linspace(state.airspeed, speed, steps + 1)[1:]:
+        for passed in np.linspace(state.airspeed, speed, steps + 1)[1:].tolist():
             if passed > reference.slowest or passed == speed:
-                state = advance(reference, state, float(passed))
-        states.append(state)
-        progress(done)
-    return states
+                state = advance(reference, state, passed)
+        yield state
 
 
 def advance(
@@ -149,7 +145,7 @@ def advance(
     only = replace(state, status=np.where(lost, state.status, int(Status.ABSENT)))
     middle = advance(reference, only, halfway, halvings - 1)
     again = _matched(marching, middle, slow)
-    return _without_doubles(found.with_modes(lost & again.found, again))
+    return _without_doubles(found.with_modes(lost, again))
 
 
 def _matched(marching: Marching, state: FollowedModes, slow: Mask) -> FollowedModes:
@@ -208,7 +204,7 @@ def _surroundings(marching: Marching, expected: complex) -> _Surroundings:
     shift = expected * (1.0 + BESIDE)
     spectrum: Spectrum = roots_near(marching, shift, ROOTS, TOLERANCE)
     values = spectrum.eigenvalues
-    kept = (values.imag > 0.0) & (spectrum.residuals < CONVERGED)
+    kept = (values.imag > REAL * np.abs(values)) & (spectrum.residuals < CONVERGED)
     q = spectrum.vectors[marching.coordinates][:, kept].T
     q = q / np.linalg.norm(q, axis=1, keepdims=True)
     radius = float(np.abs(values - shift).max(initial=0.0))

@@ -8,6 +8,7 @@ from foldwing.plots.determinant import determinant_contours
 from foldwing.plots.frequencies import natural_frequencies
 from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.picture import Picture
+from foldwing.plots.response import response
 from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     natural_frequencies,
     mode_shapes,
     flutter_phases,
+    response,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 

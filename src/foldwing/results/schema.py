@@ -84,6 +84,7 @@ _COORDINATES = (
     _row("contour_frequency", ("contour_frequency",), "Hz", "frequency of the contour grid"),
     _row("curve_sample", _CURVE, "1", "sample of the continuation curves", "integer"),
     _row("measured", _MEASURED, "1", "measured point", "integer"),
+    _row("time", ("time",), "s", "time after the disturbance"),
 )
 
 _MODES = (
@@ -149,6 +150,8 @@ _EXTRAS = (
     _row("measured_fold", _MEASURED, "degree", "measured: fold angle"),
     _row("measured_speed", _MEASURED, "m/s", "measured: airspeed of flutter"),
     _row("measured_frequency", _MEASURED, "Hz", "measured: frequency"),
+    _row("response", ("time", "mode"), "1", "modal displacement over the largest of all modes"),
+    _row("response_envelope", ("time", "mode"), "1", "amplitude of the identified motion"),
 )
 
 VARIABLES: Mapping[str, Variable] = {

@@ -217,8 +217,10 @@ def _unresolved(dataset: "xarray.Dataset") -> str:
     if not named:
         return ""
     modes = ", ".join(dict.fromkeys(name for names in named for name in names))
+    below = np.nanmax(dataset["valid_from"].values, initial=0.0)
+    where = f"Below {below:.3g} m/s" if below > 0.0 else "At these airspeeds"
     return (
-        f"Below that the lattice does not resolve the modes {modes}: their flutter points there "
+        f"{where} the lattice does not resolve the modes {modes}: their flutter points there "
         "would not be found. More panels along the chord lower the limit."
     )
 

@@ -5,13 +5,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.aeroelastic.wing import AeroelasticWing
-from foldwing.maths.arrays import Real
+from foldwing.maths.arrays import Complex, Real
 from foldwing.results.flutter_table import table_variables
 from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.contours import determinant_map
 from foldwing.stability.loci import RootLoci, root_loci
 from foldwing.structure.following import FollowedModes
+from foldwing.structure.modes import StructuralModes
 from foldwing.studies.case import Case, solve_case, verdict_variables
 from foldwing.studies.modes import fold_coordinates, mode_variables, shape_variables
 from foldwing.studies.shapes import SurfaceGrid, surface_grid
@@ -64,10 +65,10 @@ def flutter_study(
     followed = [FollowedModes(case.modes, np.ones(case.modes.count))]
     grid = surface_grid(model.wing)
     variables = (
-        _padded(mode_variables(followed) | shape_variables(followed, grid), len(loci.mode))
-        | _loci_variables(loci, case)
+        padded(mode_variables(followed) | shape_variables(followed, grid), len(loci.mode))
+        | loci_variables(loci, case.modes.names)
         | table_variables(case.rows(0))
-        | _shape_variables(case, grid)
+        | flutter_shapes(case.modes, case.motions(), grid)
         | verdict_variables([case])
         | {"message": (("fold",), np.array([case.warning], np.str_))}
     )
@@ -87,26 +88,27 @@ def flutter_study(
     return build_dataset(variables | contours, coords | contour_coords, attrs), case
 
 
-def _padded(variables: Variables, width: int) -> Variables:
+def padded(variables: Variables, width: int) -> Variables:
     """Widen variables on ``mode`` for branches of real roots, which have no natural mode."""
     result = {}
-    for name, (dims, values) in variables.items():
+    for name, (dims, values, *further) in variables.items():
         if "mode" in dims:
             axis = dims.index("mode")
             missing = [(0, 0)] * values.ndim
             missing[axis] = (0, width - values.shape[axis])
             empty = "" if values.dtype.kind == "U" else np.nan
             values = np.pad(values, missing, constant_values=empty)
-        result[name] = (dims, values)
+        result[name] = (dims, values, *further)
     return result
 
 
-def _loci_variables(loci: RootLoci, case: Case) -> Variables:
+def loci_variables(loci: RootLoci, modes: tuple[str, ...]) -> Variables:
+    """Return the eigenvalues against airspeed, and what follows from them, as variables."""
     dims = ("fold", "speed", "mode")
     values = loci.eigenvalue
     with np.errstate(divide="ignore", invalid="ignore"):
         damping = np.where(values.imag == 0.0, np.nan, -values.real / np.abs(values.imag))
-    names = _branch_names(loci, case.modes.names)
+    names = _branch_names(loci, modes)
     frequency = np.where(np.isnan(values.real), np.nan, np.abs(values.imag) / (2.0 * np.pi))
     return {
         "eigenvalue": (dims, values[None]),
@@ -136,9 +138,9 @@ def _branch_names(loci: RootLoci, modes: tuple[str, ...]) -> list[str]:
     return names
 
 
-def _shape_variables(case: Case, grid: SurfaceGrid) -> Variables:
+def flutter_shapes(modes: StructuralModes, motions: Complex, grid: SurfaceGrid) -> Variables:
     """Return the motion at each flutter point: largest displacement 1 m, its phase zero."""
-    shapes = np.einsum("pan,fn->fpa", grid.displacement(case.modes), case.motions())
+    shapes = np.einsum("pan,fn->fpa", grid.displacement(modes), motions)
     if len(shapes):
         flat = shapes.reshape(len(shapes), -1)
         largest = flat[np.arange(len(flat)), np.abs(flat).argmax(axis=1)]
