@@ -21,6 +21,7 @@ from foldwing.stability.flutter import find_flutter
 from foldwing.stability.newton import polish_roots
 from foldwing.stability.status import Status
 from foldwing.stability.tracking import track
+from foldwing.studies.reference import solve_reference
 
 FOLDS = tuple(np.radians([30.0, -75.0]))
 SMALL = {"chordwise": 2, "spanwise": 6, "wake": 5.0, "scheme": "average"}
@@ -190,6 +191,34 @@ def test_the_growth_changes_sign_at_the_flutter_point_of_the_fast_form():
         growth.append(spectrum.eigenvalues[np.argmin(np.abs(spectrum.eigenvalues - guess))].real)
     assert growth[0] < 0.0 < growth[2]
     assert abs(growth[1]) < 1e-3 * growth[2]
+
+
+def test_every_crossing_of_the_sweep_but_mergers_is_found():
+    model, modes = wing_of(), modes_of()
+    swept = find_flutter(model.system(modes), (3.0, 60.0)).points
+    swept = [point for point in swept if point.event != "merger"]
+    assert {point.kind for point in swept} == {"flutter", "divergence"}
+    found = solve_reference(Reference(model, modes), np.linspace(3.0, 60.0, 20)).points
+    for point, other in zip(found, swept, strict=True):
+        assert (point.kind, point.event) == (other.kind, other.event)
+        assert point.speed == pytest.approx(other.speed, rel=1e-7)
+        assert point.frequency == pytest.approx(other.frequency, rel=1e-8)
+        if point.kind == "flutter":
+            assert point.strength == pytest.approx(other.strength, rel=1e-3)
+            assert (point.mode, point.classification) == (other.mode, other.classification)
+
+
+@pytest.mark.parametrize("threshold", [0.02, -0.02])
+def test_crossings_of_a_damping_ratio(threshold):
+    model, modes = wing_of(), modes_of()
+    swept = find_flutter(model.system(modes), (3.0, 35.0), threshold).points
+    reference = Reference(model, modes)
+    found = solve_reference(reference, np.linspace(3.0, 35.0, 12), threshold).points
+    swept = [point for point in swept if reference.modes.omega[point.mode] < 500.0]
+    found = [point for point in found if reference.modes.omega[point.mode] < 500.0]
+    assert swept
+    for point, other in zip(found, swept, strict=True):
+        assert point.speed == pytest.approx(other.speed, rel=1e-7)
 
 
 @pytest.mark.parametrize(

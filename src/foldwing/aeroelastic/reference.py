@@ -24,7 +24,7 @@ from foldwing.errors import InputError
 from foldwing.maths.arrays import Complex, Real
 from foldwing.structure.modes import StructuralModes
 
-MOST_CHORDWISE = 64
+MOST_CHORDWISE = 24
 """Panels along the chord that a fixed time step may ask for."""
 
 
@@ -306,10 +306,15 @@ class Reference:
 
     @property
     def slowest(self) -> float:
-        """Airspeed in m/s above which a fixed time step takes no more panels than allowed."""
+        """Airspeed in m/s from which on a fixed time step takes no more panels than allowed."""
         if self.time_step is None:
             return 0.0
         return self.model.wing.segments[0].chord / (MOST_CHORDWISE * self.time_step)
+
+    @property
+    def own_mesh(self) -> "Reference":
+        """The same with the panels of the model at every airspeed."""
+        return replace(self, time_step=None)
 
     def at(self, airspeed: float) -> Marching:
         """Return the equations at an airspeed in m/s, greater than 0."""

@@ -121,12 +121,12 @@ def follow(reference: Reference, speeds: Real) -> Iterator[FollowedModes]:
         A mode too fast for the steps at an airspeed is ``unresolved`` there and begins later; one
         that is lost stays lost.
     """
-    state = at_rest(reference.modes.count)
+    state, between = at_rest(reference.modes.count), reference.own_mesh
     for speed in speeds.tolist():
         steps = math.ceil((speed - state.airspeed) / (LONGEST_STEP * speed) - 1e-9)
-        for passed in np.linspace(state.airspeed, speed, steps + 1)[1:].tolist():
-            if passed > reference.slowest or passed == speed:
-                state = advance(reference, state, passed)
+        for passed in np.linspace(state.airspeed, speed, steps + 1)[1:-1].tolist():
+            state = advance(between, state, passed)
+        state = advance(reference, state, speed)
         yield state
 
 

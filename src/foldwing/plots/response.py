@@ -12,6 +12,7 @@ from foldwing.results.summary import fold_text
 if TYPE_CHECKING:
     import xarray
 
+_GROWTH_DIGITS = 3
 _MOST_PANELS = 2
 """Modes shown: those in which the identified motion is largest."""
 
@@ -29,18 +30,23 @@ def response(dataset: "xarray.Dataset") -> Picture | None:
     return Picture(
         "response",
         f"How the wing moves after a tap on its tip at {attrs['speed']:.4g} m/s",
-        subtitle(dataset, fold_text(dataset, 0)) + f". {_identified(attrs)} Displacements of the "
-        "modes in which it is largest, over the largest of all modes.",
+        subtitle(dataset, fold_text(dataset, 0)) + f". {_identified(attrs)} Shown are "
+        "the modes in which it is largest; 1 is the largest displacement of any mode.",
         panels,
     )
 
 
 def _identified(attrs: dict[str, Any]) -> str:
     """Return what was identified and what the eigenvalue says, in a sentence."""
-    found = f"{attrs['frequency']:.4g} Hz and growth {attrs['growth']:.3g}/s"
-    value = f"{attrs['eigenvalue_frequency']:.4g} Hz and {attrs['eigenvalue_growth']:.3g}/s"
-    text = f"The dashed envelope is the motion identified in the response, of {found}"
+    found = _motion(attrs["frequency"], attrs["growth"])
+    value = _motion(attrs["eigenvalue_frequency"], attrs["eigenvalue_growth"])
+    text = f"The dashed envelope is the motion identified in the response: {found}"
     return f"{text} (eigenvalue: {value}).".replace("-", "−")
+
+
+def _motion(frequency: float, growth: float) -> str:
+    rounded = round(growth, _GROWTH_DIGITS) + 0.0
+    return f"{frequency:.4g} Hz, growth {rounded:g} 1/s"
 
 
 def _panel(dataset: "xarray.Dataset", mode: int) -> Panel:

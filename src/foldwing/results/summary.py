@@ -193,6 +193,17 @@ def _validity(dataset: "xarray.Dataset") -> str:
     return f", from {lowest.max():.3g} m/s on" if lowest.size else ""
 
 
+def response(dataset: "xarray.Dataset") -> str:
+    """Return what was identified in the response in time, beside the eigenvalue; or nothing."""
+    if "response" not in dataset:
+        return ""
+    attrs = dataset["response"].attrs
+    found = f"{attrs['frequency']:.5g} Hz and growth {round(attrs['growth'], 4) + 0.0:g} 1/s"
+    hertz, growth = attrs["eigenvalue_frequency"], round(attrs["eigenvalue_growth"], 4) + 0.0
+    value = f"{hertz:.5g} Hz and {growth:g} 1/s"
+    return f"After a tap at {attrs['speed']:.4g} m/s: {found}; the eigenvalue says {value}."
+
+
 def warnings(dataset: "xarray.Dataset") -> str:
     """Return what makes results doubtful, case by case: modes not resolved, remarks."""
     if "certified" not in dataset:

@@ -169,7 +169,7 @@ def reference_study(
     modes = model.modes(radians(folds))
     warning = model.warning(modes)
     reference = Reference(model, modes, time_step)
-    chosen = _default_speeds(model, folds, highest) if speeds is None else speeds
+    chosen = _default_speeds(reference, folds, highest) if speeds is None else speeds
     moving = chosen[chosen > 0.0]
     for speed in moving.tolist():
         reference.chordwise(speed)
@@ -213,12 +213,12 @@ def _case_variables(
     return variables, coords
 
 
-def _default_speeds(
-    model: AeroelasticWing, folds: tuple[float, ...], highest: float | None
-) -> Real:
+def _default_speeds(reference: Reference, folds: tuple[float, ...], highest: float | None) -> Real:
+    """Return airspeeds up to 1.5 times the critical one, none too low for the time step."""
+    model = reference.model
     case = solve_case(model, folds, speed_range(model, highest))
     top = float(picture_speeds(case.analysis)[-1])
-    return np.linspace(0.0, top, SPEEDS + 1)[1:]
+    return np.linspace(min(max(top / SPEEDS, reference.slowest), top), top, SPEEDS)
 
 
 def _followed_root(found: ReferenceFlutter) -> complex:
