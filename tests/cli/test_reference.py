@@ -69,6 +69,10 @@ def test_reference_writes_the_response_and_its_picture(cli, empty_folder):
     envelope = dataset["response_envelope"]
     begun = np.isfinite(envelope.isel(mode=0).values)
     assert begun.any() and not begun.all()
+    late = slice(-len(begun) // 3, None)
+    mode = int(np.argmax(np.nan_to_num(envelope.values[-1])))
+    peaks = np.abs(response.values[late, mode]) / envelope.values[late, mode]
+    assert peaks.max() == pytest.approx(1.0, abs=0.1)
 
 
 @pytest.mark.parametrize(("step", "panels"), [("0.0012", "2x6"), ("0.0005", "5x6")])

@@ -193,12 +193,14 @@ def test_the_growth_changes_sign_at_the_flutter_point_of_the_fast_form():
     assert abs(growth[1]) < 1e-3 * growth[2]
 
 
-def test_every_crossing_of_the_sweep_but_mergers_is_found():
-    model, modes = wing_of(), modes_of()
-    swept = find_flutter(model.system(modes), (3.0, 60.0)).points
+@pytest.mark.parametrize(("name", "folds", "top"), [("three-segment", FOLDS, 60), ("hale", (), 130)])
+def test_every_crossing_of_the_sweep_but_mergers_is_found(name, folds, top):
+    model = AeroelasticWing(read_model(name).with_lattice(**SMALL), "lattice")
+    modes = model.modes(folds)
+    swept = find_flutter(model.system(modes), (3.0, top)).points
     swept = [point for point in swept if point.event != "merger"]
     assert {point.kind for point in swept} == {"flutter", "divergence"}
-    found = solve_reference(Reference(model, modes), np.linspace(3.0, 60.0, 20)).points
+    found = solve_reference(Reference(model, modes), np.linspace(3.0, top, 24)).points
     for point, other in zip(found, swept, strict=True):
         assert (point.kind, point.event) == (other.kind, other.event)
         assert point.speed == pytest.approx(other.speed, rel=1e-7)
