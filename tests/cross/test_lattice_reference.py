@@ -193,7 +193,9 @@ def test_the_growth_changes_sign_at_the_flutter_point_of_the_fast_form():
     assert abs(growth[1]) < 1e-3 * growth[2]
 
 
-@pytest.mark.parametrize(("name", "folds", "top"), [("three-segment", FOLDS, 60), ("hale", (), 130)])
+@pytest.mark.parametrize(
+    ("name", "folds", "top"), [("three-segment", FOLDS, 60), ("hale", (), 130)]
+)
 def test_every_crossing_of_the_sweep_but_mergers_is_found(name, folds, top):
     model = AeroelasticWing(read_model(name).with_lattice(**SMALL), "lattice")
     modes = model.modes(folds)

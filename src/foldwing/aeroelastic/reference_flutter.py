@@ -20,6 +20,9 @@ ACCURACY = 1e-10
 BESIDE = 1e-5
 """Relative distance in airspeed over which the strength is taken."""
 
+RIGID = 0.999
+"""Share of motions without stiffness in that of a root at zero above which it is neutral."""
+
 GROWING, NEUTRAL, REAL_ROOTS = 0.15, 0.01, 10
 """Reduced shifts p around which real roots are sought, and how many roots are computed there."""
 
@@ -139,7 +142,7 @@ class RealRoots:
 
 
 def real_roots(reference: Reference, airspeed: float, shift: float = GROWING) -> RealRoots:
-    """Return the real roots among those nearest to a real reduced shift p."""
+    """Return the real roots among those nearest to a real reduced shift p, but not neutral ones."""
     marching = reference.at(airspeed)
     rate = airspeed / reference.model.half_chord
     spectrum = roots_near(marching, complex(shift * rate), REAL_ROOTS)
@@ -152,7 +155,10 @@ def real_roots(reference: Reference, airspeed: float, shift: float = GROWING) ->
     largest = np.take_along_axis(x, np.abs(x).argmax(axis=1, keepdims=True), axis=1)
     q: Real = (x / largest).real
     q = q / np.linalg.norm(q, axis=1, keepdims=True)
-    return RealRoots(airspeed, values[order].real, spectrum.residuals[order], q)
+    found = values[order].real
+    rigid = np.linalg.norm(q[:, reference.modes.omega == 0.0], axis=1) > RIGID
+    moving = ~(rigid & (np.abs(found) < REAL * rate))
+    return RealRoots(airspeed, found[moving], spectrum.residuals[order][moving], q[moving])
 
 
 def divergence_crossing(

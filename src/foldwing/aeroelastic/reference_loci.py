@@ -91,8 +91,9 @@ class FollowedModes:
         return replace(self, vectors=vectors, **parts)
 
 
-def at_rest(count: int) -> FollowedModes:
-    """Return ``count`` modes from which to begin: without air, each by itself."""
+def at_rest(omega: Real) -> FollowedModes:
+    """Return the modes from which to begin: without air, each by itself; none without stiffness."""
+    count = len(omega)
     zero = np.zeros(count)
     return FollowedModes(
         airspeed=0.0,
@@ -102,7 +103,7 @@ def at_rest(count: int) -> FollowedModes:
         vectors=np.eye(count, dtype=complex),
         residual=np.full(count, np.nan),
         confidence=zero,
-        status=np.full(count, int(Status.OK)),
+        status=np.where(omega > 0.0, int(Status.OK), int(Status.ABSENT)),
     )
 
 
@@ -121,7 +122,7 @@ def follow(reference: Reference, speeds: Real) -> Iterator[FollowedModes]:
         A mode too fast for the steps at an airspeed is ``unresolved`` there and begins later; one
         that is lost stays lost.
     """
-    state, between = at_rest(reference.modes.count), reference.own_mesh
+    state, between = at_rest(reference.modes.omega), reference.own_mesh
     for speed in speeds.tolist():
         steps = math.ceil((speed - state.airspeed) / (LONGEST_STEP * speed) - 1e-9)
         for passed in np.linspace(state.airspeed, speed, steps + 1)[1:-1].tolist():
