@@ -32,6 +32,8 @@ EVERY = {
     "quiet": lambda: datasets.flutter_dataset([]),
     "boundary": datasets.boundary_dataset,
     "all-failed": lambda: datasets.boundary_dataset(30.0, failed=tuple(range(6))),
+    "convergence": datasets.convergence_dataset,
+    "steady": datasets.steady_dataset,
 }
 
 
@@ -314,6 +316,8 @@ EXPECTED = {
     "quiet": {"growth-and-frequency", "root-locus", "determinant"},
     "boundary": {"boundary", "natural-frequencies"},
     "all-failed": {"boundary"},
+    "convergence": {"convergence"},
+    "steady": {"circulation", "circulation-across", "circulation-in-space"},
 }
 
 
@@ -644,3 +648,58 @@ def test_files_of_a_run_fit_into_a_result_folder(tmp_path):
         plots.write_pictures(dataset, folder, formats=("svg",))
     listed = (tmp_path / "out" / "manifest.txt").read_text().splitlines()
     assert Path("root-locus.svg").name in listed and results.DATASET_FILE in listed
+
+
+# ------------------------------------------------------------------------------- convergence
+
+
+def test_a_convergence_picture_has_axes_of_its_own_for_each_setting():
+    dataset = datasets.convergence_dataset()
+    axes = plots.static_figures(dataset)["convergence"].axes
+    assert [one.get_xscale() for one in axes] == ["log", "log", "linear"]
+    assert [one.get_xlabel() for one in axes] == [
+        "panels along the chord",
+        "length of the wake (chords)",
+        "gap between segments (mm)",
+    ]
+    assert [[tick.get_text() for tick in one.get_xticklabels()] for one in axes] == [
+        ["2", "4", "8", "16"],
+        ["10", "20", "40"],
+        ["0", "0.5", "1"],
+    ]
+    boxes = [one.get_position() for one in axes]
+    assert boxes[0].y0 == boxes[1].y0 > boxes[2].y1
+    assert boxes[0].x1 < boxes[1].x0
+
+
+def test_interactive_panels_of_a_convergence_picture_do_not_share_an_axis():
+    ((_, _, figure),) = plots.interactive_figures(datasets.convergence_dataset())
+    layout = figure["layout"]
+    assert [layout[name].get("matches") for name in ("xaxis", "xaxis2", "xaxis3")] == [None] * 3
+    assert layout["xaxis"]["domain"][1] < layout["xaxis2"]["domain"][0]
+    assert layout["xaxis"]["range"][0] == pytest.approx(math.log10(2 / 1.12))
+    assert layout["yaxis3"]["domain"][1] < layout["yaxis"]["domain"][0]
+
+
+def test_the_answer_of_a_convergence_study_names_what_is_not_good_enough():
+    dataset = datasets.convergence_dataset()
+    assert results.answer(dataset).startswith("Largest error bars of the airspeeds: panels along")
+    names = dataset["setting"].values.tolist()
+    dataset = dataset.assign_coords(setting=[names[0], names[1], "spanwise"])
+    dataset["level_setting"] = dataset["level_setting"].where(
+        dataset["level_setting"] != "gap", "spanwise"
+    )
+    count = dataset.sizes["flutter_point"]
+    dataset["mesh_error_speed"].values[:] = 0.005 * dataset["flutter_speed"].values
+    assert results.answer(dataset) == (
+        f"{count} of {count} flutter points are good to 1 % in airspeed, by chord, span and wake "
+        "together."
+    )
+    dataset["mesh_error_speed"].values[0] *= 4.0
+    dataset["error_speed"].values[1, 0] *= 2.0
+    text = results.answer(dataset)
+    assert text.startswith(f"{count - 1} of {count} ")
+    assert text.endswith("(2 %, most of it from the wake).")
+    dataset["mesh_error_speed"].values[0] = math.nan
+    dataset["error_speed"].values[2, 0] = math.nan
+    assert "not known: it is not found at every finer span" in results.answer(dataset)

@@ -111,5 +111,11 @@ def no_computing(monkeypatch: pytest.MonkeyPatch) -> None:
     def computed(*arguments: object) -> None:
         raise AssertionError("something was computed")
 
-    for name in ("boundary.solve_case", "flutter.solve_case", "modes.follow_modes"):
+    for name in (
+        "boundary.solve_case",
+        "flutter.solve_case",
+        "convergence.solve_case",
+        "modes.follow_modes",
+        "steady.wing_loads",
+    ):
         monkeypatch.setattr(f"foldwing.studies.{name}", computed)

@@ -18,6 +18,7 @@ hinge = { springs = 3, spacing = "15 mm", stiffness = "0.18 N*m/rad", fold = 30 
 """
 
 THREE = "three-segment"
+LATTICE = ("convergence", THREE, "--aero", "lattice")
 GRID = ("--fold2", "0:1000:1", "--fold3", "0:1000:1")
 
 # arguments, and what the message must say: field, value, limit, remedy
@@ -68,6 +69,22 @@ CASES = [
     (("flutter", THREE, "--speeds", "nan"), "--speeds", "'nan'", "finite", "0:60:1"),
     (("flutter", THREE, "--speeds", "0:inf:1"), "--speeds", "'0:inf:1'", "finite", "0:60:1"),
     (("flutter", THREE, "--speeds", "0:1e7:1"), "--speeds", "1e7", "at most 100000", "larger step"),
+    # lists
+    (("modes", THREE, "--fold2", "0,x,60"), "--fold2", "'0,x,60'", "made of numbers", "0,60,90"),
+    (("modes", THREE, "--fold2", "0,,60"), "--fold2", "'0,,60'", "made of numbers", "0,60,90"),
+    (("modes", THREE, "--fold2", "0,inf"), "--fold2", "'0,inf'", "finite", "0,60,90"),
+    (("modes", THREE, "--fold2", "0,10:0:5"), "--fold2", "'0,10:0:5'", "start to stop", "0:10:5"),
+    (("modes", THREE, "--fold2", "0,1:2"), "--fold2", "'0,1:2'", "or a list", "0,60,90"),
+    (("flutter", THREE, "--speeds", "0,40,20"), "--speeds", "'0,40,20'", "ascend", "0:60:1"),
+    # steady
+    (("steady", THREE, "--alpha", "21"), "--alpha", "21.0", "-20 to 20 degrees", "stall"),
+    (("steady", THREE, "--alpha", "nan"), "--alpha", "nan", "-20 to 20 degrees", "linear"),
+    (("steady", THREE, "--alpha", "5deg"), "--alpha", "'5deg'", "a number", "--alpha 5"),
+    (("steady", THREE, "--speed", "0"), "--speed", "0.0", "0.001 to 100000 m/s", "such as 20"),
+    (("steady", THREE, "--gap", "20 cm"), "--gap", "0.2", "gaps must leave some", "narrower"),
+    (("steady", THREE, "--gap", "-1 mm"), "--gap", "-1 mm", "at least 0"),
+    (("steady", THREE, "--panels", "8x2"), "--panels", "2", "each of 3 segments", "larger"),
+    (("steady", THREE, "--basis", "converged"), "--basis", "-h"),
     # numbers
     (("flutter", THREE, "--max-speed", "0"), "--max-speed", "0.0", "0.001 to 100000 m/s", "as 60"),
     (("boundary", THREE, "--max-speed", "-5"), "--max-speed", "-5.0", "0.001 to", "as 60"),
@@ -90,6 +107,29 @@ CASES = [
     # measured points
     (("boundary", THREE, "--measured", "no.csv"), "--measured", "no.csv", "No such", "level-tip"),
     (("modes", THREE, "--measured", "."), "--measured", "'.'", "can be read", "header has fold_2"),
+    # convergence
+    (("convergence", THREE, "--fold2", "0:9:3"), "2=0:9:3", "convergence takes one", "not 4"),
+    (
+        ("convergence", THREE, "--vary", "chord"),
+        "--vary",
+        "'chord'",
+        "chordwise, spanwise",
+        "--vary chordwise",
+    ),
+    (("convergence", THREE, "--vary", ""), "--vary", "''", "chordwise, spanwise"),
+    (("convergence", THREE, "--vary", "wake"), "--vary", "'wake'", "strip", "Add --aero lattice"),
+    ((*LATTICE, "--vary", "gap"), "--vary", "'gap'", "not depend", '--gap "1 mm"'),
+    ((*LATTICE, "--levels", "wake"), "--levels", "'wake'", "numbers", "chordwise=4,8,16"),
+    ((*LATTICE, "--levels", "wak=3"), "--levels", "'wak=3'", "name one of", "chordwise=4,8,16"),
+    ((*LATTICE, "--levels", "wake=0"), "--levels", "'wake=0'", "greater than 0", "chordwise=4"),
+    ((*LATTICE, "--levels", "wake=nan"), "--levels", "'wake=nan'", "finite", "chordwise=4"),
+    ((*LATTICE, "--levels", "wake=2,a"), "--levels", "'wake=2,a'", "numbers", "chordwise=4"),
+    ((*LATTICE, "--levels", "chordwise=4.5"), "--levels", "chordwise=4.5", "a whole number"),
+    ((*LATTICE, "--levels", "wake=1e9"), "--levels", "wake=1000000000.0", "at most 10000"),
+    ((*LATTICE, "--levels", "wake=" + "1," * 200), "--levels", "201 values", "at most 100"),
+    ((*LATTICE, "--levels", "wake=2", "--levels", "wake=3"), "--levels", "already", "once"),
+    ((*LATTICE, "--vary", "wake", "--levels", "gap=0"), "--levels", "'gap'", '--gap "1 mm"'),
+    ((*LATTICE, "--vary", "wake", "--levels", "chordwise=4"), "--levels", "not among --vary"),
     # examples
     (("examples", "golan"), "'golan'", "Did you mean goland?", "hale"),
     (("examples", "--copy", "x.toml"), "NAME", "missing", "--copy", "name first"),

@@ -37,7 +37,28 @@ def test_decimal_steps_hit_the_stop():
     assert parse_range(" 7.5 ", "--fold2") == (7.5,)
 
 
-@given(text=st.text(alphabet="0123456789.:-+einfa _xX", max_size=12))
+@given(values=st.lists(numbers, min_size=1, max_size=8))
+def test_lists_keep_their_order_and_count_a_value_once(values):
+    text = ",".join(str(value) for value in values)
+    assert parse_range(text, "--fold2") == tuple(sorted(set(values), key=values.index))
+
+
+def test_lists_may_hold_ranges():
+    assert parse_range("0:90:45, 90:120:10,-5", "--fold2") == (
+        0.0,
+        45.0,
+        90.0,
+        100.0,
+        110.0,
+        120.0,
+        -5.0,
+    )
+    cases = fold_cases(read_model("three-segment"), None, {2: "0,60,90", 3: "level"})
+    assert cases == [(0.0, 0.0), (60.0, -60.0), (90.0, -90.0)]
+    assert parse_speeds("5,20,60").tolist() == [5.0, 20.0, 60.0]
+
+
+@given(text=st.text(alphabet="0123456789.:,-+einfa _xX", max_size=12))
 def test_ranges_give_finite_values_or_an_input_error(text):
     try:
         values = parse_range(text, "--fold2")

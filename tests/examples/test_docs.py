@@ -18,7 +18,7 @@ from foldwing.model import parse_model
 from foldwing.model.quantities import Quantity
 from foldwing.model.record import Record
 from foldwing.model.schema import HingeTable, ModelFile, SegmentTable, WingTable
-from foldwing.results.schema import COORDINATES, VARIABLES
+from foldwing.results.variables import COORDINATES, VARIABLES
 
 ROOT = Path(__file__).parents[2]
 DOCS = sorted((ROOT / "docs").glob("*.md"))
@@ -85,7 +85,9 @@ def run_commands(block):
     for line in block.text.splitlines():
         if line.startswith("foldwing "):
             words = shlex.split(line.split(">")[0], comments=True)[1:]
-            draws = words[0] in ("modes", "flutter", "boundary") and "--no-plot" not in words
+            draws = (
+                words[0] in ("modes", "flutter", "boundary", "steady") and "--no-plot" not in words
+            )
             assert run([*words, *(["--no-plot"] if draws else [])]) == 0, line
 
 

@@ -307,3 +307,58 @@ def boundary_dataset(step: float = 5.0, failed: tuple[int, ...] = (24,)) -> xarr
         {**fold_coords(fold_2), "mode": (("mode",), np.arange(len(NAMES)) + 1)},
         attributes("boundary", swept="fold_2", speed_limit=45.0),
     )
+
+
+def convergence_dataset() -> xarray.Dataset:
+    """Onset, recovery and divergence of one case; at the coarsest level the recovery is missing."""
+    rows = flutter_table()
+    speed = np.array([entry.speed for entry in rows])
+    settings = {"chordwise": (2, 4, 8, 16), "wake": (10, 20, 40), "gap": (0.0, 0.5e-3, 1e-3)}
+    own = {"chordwise": 8, "wake": 20, "gap": 1e-3}
+    levels = [(name, value) for name, values in settings.items() for value in values]
+    values = np.array([value for _, value in levels])
+    error = np.where(values > 1, 2.0 / np.maximum(values, 1.0) ** 2, 20.0 * values)
+    level_speed = speed * (1.0 + error[:, None])
+    level_speed[0, 1] = np.nan
+    shape = (len(settings), len(rows))
+    level, table, verdict = ("level",), ("level", "flutter_point"), ("setting", "flutter_point")
+    status = np.full(len(levels), int(Status.OK))
+    status[0] = Status.FAILED
+    kinds = np.full(shape, "monotone", dtype="<U12")
+    kinds[1] = "oscillating"
+    variables = {
+        "level_setting": (level, np.array([name for name, _ in levels])),
+        "level_value": (level, values),
+        "level_own": (level, np.array([own[name] == value for name, value in levels])),
+        "level_status": (level, status),
+        "level_message": (level, np.where(status > 0, "ValueError: too coarse", "")),
+        "level_speed": (table, level_speed),
+        "level_frequency": (table, np.full_like(level_speed, 20.0)),
+        "level_likeness": (table, np.where(np.isnan(level_speed), np.nan, 0.99)),
+        "convergence": (verdict, kinds),
+        "order": (verdict, np.where(kinds == "monotone", 2.0, np.nan)),
+        "limit_speed": (verdict, np.tile(speed, (len(settings), 1))),
+        "error_speed": (verdict, np.tile(0.01 * speed, (len(settings), 1))),
+        "mesh_limit_speed": (("flutter_point",), speed),
+        "mesh_error_speed": (("flutter_point",), np.full(len(rows), np.nan)),
+        "certified": (("fold",), np.array([True])),
+        "case_status": (("fold",), np.array([int(Status.OK)])),
+        "message": (("fold",), np.array([""])),
+    }
+    coords = fold_coords([60.0])
+    coords |= {
+        "setting": (("setting",), np.array(list(settings))),
+        "level": (level, np.arange(len(levels))),
+        "flutter_point": (("flutter_point",), np.arange(len(rows))),
+    }
+    attrs = attributes("convergence", speed_limit=40.0)
+    return build_dataset(variables | table_variables(rows), coords, attrs)
+
+
+def steady_dataset(folds: Any = ((0.0, 0.0), (60.0, -60.0), (180.0, 0.0))) -> xarray.Dataset:
+    """Steady loads with and without gaps; the last case, folded flat, fails."""
+    from foldwing.model import read_model
+    from foldwing.studies.steady import steady_study
+
+    wing = read_model("three-segment").with_gaps("1 mm").with_lattice(chordwise=2, spanwise=9)
+    return steady_study(wing, folds).dataset

@@ -1,1 +1,1 @@
-"""Unsteady aerodynamics: every model gives generalized forces as a function of p alone."""
+"""Aerodynamics: unsteady forces as a function of p alone, and the steady lattice."""

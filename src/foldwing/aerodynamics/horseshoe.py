@@ -15,12 +15,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foldwing.maths.arrays import Real
+from foldwing.maths.arrays import Indices, Real
 
 FOUR_PI = 4.0 * np.pi
 
-CHUNK = 40_000
-"""Kernel values computed at a time: what fits into the cache of a core."""
+CHUNK = 12_000
+"""Kernel values computed at a time: small enough for arrays whose memory is kept and used again."""
 
 SINGULAR = 1e-24
 """Square of the distance from a vortex, relative to its length, within which it induces nothing."""
@@ -97,68 +97,101 @@ def streamwise_wash(xi: Real, points: Real, normals: Real, edges: Edges) -> Real
     array, shape (q, r, s)
         In m/s per m^2/s; a vortex induces nothing at points on its bound part.
     """
-    pair = _Pairs.of(points, normals, edges)
+    chain = _Chain.of(points, normals, edges)
     wash = np.empty((len(xi), len(points), len(edges.inner)))
     rows = max(1, CHUNK // max(1, wash[0].size))
     upstream = int(np.searchsorted(xi, 0.0))
     for start, end, ahead in ((0, upstream, True), (upstream, len(xi), False)):
         for first in range(start, end, rows):
             last = min(first + rows, end)
-            wash[first:last] = pair.wash(xi[first:last, None, None], ahead)
+            wash[first:last] = chain.wash(xi[first:last, None, None], ahead)
     return wash
 
 
-class _Pairs(NamedTuple):
-    """What depends on y and z alone, each of shape (r, s); a and b stand for r_a and r_b."""
+class _Chain(NamedTuple):
+    """What depends on y and z alone, divided by 4 pi where it counts.
 
-    a2: Real
-    b2: Real
-    leg_a: Real
-    leg_b: Real
+    Neighbouring vortices share an end: legs and distances are computed once for each end.
+
+    Attributes
+    ----------
+    inner, outer : slice or array of int
+        Which ends A and B are.
+    distance2, leg : array, shape (r, ends)
+        Square of the distance of the points in y and z, and strength of the leg.
+    turn, cross2, length2, along, turn_a, turn_b : array, shape (r, s)
+        Of the bound vortices; a and b stand for r_a and r_b.
+    """
+
+    inner: slice | Indices
+    outer: slice | Indices
+    distance2: Real
+    leg: Real
     turn: Real
     cross2: Real
     length2: Real
     along: Real
-    along_a: Real
-    along_b: Real
+    turn_a: Real
+    turn_b: Real
 
     @classmethod
-    def of(cls, points: Real, normals: Real, edges: Edges) -> "_Pairs":
-        a, b = points[:, None] - edges.inner, points[:, None] - edges.outer
-        l = edges.outer - edges.inner
+    def of(cls, points: Real, normals: Real, edges: Edges) -> "_Chain":
+        ends, inner, outer = _shared_ends(edges)
+        r = points[:, None] - ends
         n_y, n_z = normals[:, None, 0], normals[:, None, 1]
+        a, b = r[:, inner], r[:, outer]
+        l = edges.outer - edges.inner
+        turn = (l[:, 1] * n_y - l[:, 0] * n_z) / FOUR_PI
         return cls(
-            a2=(a**2).sum(axis=2),
-            b2=(b**2).sum(axis=2),
-            leg_a=a[..., 1] * n_y - a[..., 0] * n_z,
-            leg_b=b[..., 0] * n_z - b[..., 1] * n_y,
-            turn=l[:, 1] * n_y - l[:, 0] * n_z,
+            inner=inner,
+            outer=outer,
+            distance2=(r**2).sum(axis=2),
+            leg=(r[..., 1] * n_y - r[..., 0] * n_z) / FOUR_PI,
+            turn=turn,
             cross2=(a[..., 1] * b[..., 0] - a[..., 0] * b[..., 1]) ** 2,
             length2=np.broadcast_to((l**2).sum(axis=1), a.shape[:2]),
             along=(a * b).sum(axis=2),
-            along_a=(l * a).sum(axis=2),
-            along_b=(l * b).sum(axis=2),
+            turn_a=turn * (l * a).sum(axis=2),
+            turn_b=turn * (l * b).sum(axis=2),
         )
 
     def wash(self, xi: Real, ahead: bool) -> Real:
         """Return the wash at distances of one sign: ``ahead`` of the bound vortices or behind."""
-        xi2 = xi * xi
-        R_a, R_b = np.sqrt(xi2 + self.a2), np.sqrt(xi2 + self.b2)
+        R = np.sqrt(xi * xi + self.distance2)
         if ahead:
-            legs = self.leg_a / (R_a * (R_a - xi)) + self.leg_b / (R_b * (R_b - xi))
+            share = 1.0 / (R * (R - xi))
+            inverse, legs = share * (R - xi), self.leg * share
         else:
-            legs = self.leg_a / self.a2 * (1.0 + xi / R_a) + self.leg_b / self.b2 * (1.0 + xi / R_b)
-        across = self.cross2 + xi2 * self.length2
+            inverse = 1.0 / R
+            legs = self.leg / self.distance2 * (1.0 + xi * inverse)
+        wash = legs[..., self.inner] - legs[..., self.outer]
+        across = self.cross2 + xi * xi * self.length2
         if across.min() < 1e-6 * float(self.length2.min()) ** 2:
-            return np.asarray((legs + self._bound_anywhere(xi, R_a, R_b, across)) / FOUR_PI)
-        bound = xi * self.turn / across * (self.along_a / R_a - self.along_b / R_b)
-        return np.asarray((legs + bound) / FOUR_PI)
+            wash += self._bound_anywhere(xi, R, across)
+        else:
+            turn = self.turn_a * inverse[..., self.inner] - self.turn_b * inverse[..., self.outer]
+            wash += xi / across * turn
+        return wash
 
-    def _bound_anywhere(self, xi: Real, R_a: Real, R_b: Real, across: Real) -> Real:
+    def _bound_anywhere(self, xi: Real, R: Real, across: Real) -> Real:
         """Return the part of the bound vortex, exact to round-off beside its line as well."""
+        R_a, R_b = R[..., self.inner], R[..., self.outer]
         product, along = R_a * R_b, self.along + xi * xi
         touching = across <= SINGULAR * self.length2**2
         with np.errstate(divide="ignore", invalid="ignore"):
             denominator = np.where(along > 0.0, product + along, across / (product - along))
             value = xi * self.turn * (R_a + R_b) / (product * denominator)
         return np.where(touching, 0.0, value)
+
+
+def _shared_ends(edges: Edges) -> tuple[Real, slice | Indices, slice | Indices]:
+    """Return the ends of all vortices (ends, 2), neighbours' once, and which A and B are."""
+    gap2 = ((edges.inner[1:] - edges.outer[:-1]) ** 2).sum(axis=1)
+    alone = gap2 > SINGULAR * ((edges.outer - edges.inner) ** 2).sum(axis=1).min(initial=np.inf)
+    if not alone.any():
+        return np.vstack([edges.inner, edges.outer[-1:]]), slice(None, -1), slice(1, None)
+    last = np.append(alone, True)
+    outer = np.arange(1, len(last) + 1) + np.cumsum(last) - last
+    ends = np.empty((outer[-1] + 1, 2))
+    ends[outer - 1], ends[outer] = edges.inner, edges.outer
+    return ends, outer - 1, outer

@@ -208,7 +208,10 @@ def _edges(
     if lattice.spacing == "cosine":
         share = (1.0 - np.cos(np.pi * share)) / 2.0
     if lattice.spacing == "inset":
-        start, end = INSET * inner_free, INSET * outer_free
+        # A quarter of the strip that the gap will have beside it.
+        beside = INSET * 0.5**lattice.gap_refinement
+        start = beside if inner_gap > 0.0 else INSET * inner_free
+        end = beside if outer_gap > 0.0 else INSET * outer_free
         share = (start + count * share) / (count + start + end)
     edges: Real = first + (last - first) * share
     for _ in range(lattice.gap_refinement):

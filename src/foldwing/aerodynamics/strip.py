@@ -12,7 +12,7 @@ where ' is d/dt. A segment whose half chord b_i is not the reference b sees its 
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -171,6 +171,11 @@ class StripModel:
         """Return Qhat at the values ``p`` of shape (m,), as an array (m, n, n)."""
         p = np.asarray(p, complex)
         return (self._factors(p) @ self._terms).reshape(len(p), self.size, self.size)
+
+    def forces_by_segment(self, p: Complex) -> Complex:
+        """Return the part of Qhat from each segment, shape (m, segments, n, n)."""
+        alone = (replace(self, segments=(segment,)) for segment in self.segments)
+        return np.stack([model.forces(p) for model in alone], axis=1)
 
     def forces_with_derivative(self, p: Complex) -> tuple[Complex, Complex]:
         """Return Qhat and dQhat/dp, each of shape (m, n, n); the latter is not finite at p = 0."""

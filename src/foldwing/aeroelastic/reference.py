@@ -18,7 +18,8 @@ import numpy as np
 import scipy.sparse
 from scipy.sparse import csc_array
 
-from foldwing.aerodynamics.unsteady import Influence, PanelMotion
+from foldwing.aerodynamics.influence import Influence
+from foldwing.aerodynamics.unsteady import PanelMotion
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Complex, Real

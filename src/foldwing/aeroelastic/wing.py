@@ -1,11 +1,13 @@
 """From a wing to its aeroelastic system: what depends on the fold angles and what does not."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.lattice import (
     SegmentMesh,
     Strips,
@@ -14,14 +16,8 @@ from foldwing.aerodynamics.lattice import (
     mesh_segments,
 )
 from foldwing.aerodynamics.port import AerodynamicModel
-from foldwing.aerodynamics.strip import StripForces, strip_forces, strip_model
-from foldwing.aerodynamics.unsteady import (
-    Influence,
-    LatticeModel,
-    PanelMotion,
-    lattice_model,
-    load_length,
-)
+from foldwing.aerodynamics.strip import StripForces, StripModel, strip_forces, strip_model
+from foldwing.aerodynamics.unsteady import LatticeModel, PanelMotion, lattice_model, load_length
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
@@ -135,19 +131,7 @@ class AeroelasticWing:
         """
         if self.aerodynamics != "lattice":
             return ""
-        near = closeness(self.strips(modes))
-        pair = f"segments {near.segment + 1} and {near.other + 1}"
-        if near.ratio < TOUCHING:
-            folds = ", ".join(f"{math.degrees(angle):g}" for angle in modes.fold_angles)
-            limit = f"{pair} lie on each other, {1e3 * near.distance:.2g} mm apart"
-            remedy = "A vortex lattice cannot be folded flat: change the angle by some degrees."
-            raise InputError("fold", folds, limit, remedy)
-        if near.ratio < CLOSE:
-            return (
-                f"{pair} come within {1e3 * near.distance:.2g} mm of each other, "
-                f"{near.ratio:.2g} widths of a strip: the lattice is inaccurate there."
-            )
-        return ""
+        return closeness_warning(self.strips(modes), modes.fold_angles)
 
     def influence(self, modes: StructuralModes) -> Influence:
         """Return the influence of the vortices of the folded wing and its wake."""
@@ -187,16 +171,48 @@ class AeroelasticWing:
             self.wing.lattice,
         )
 
-    def aerodynamic_model(self, modes: StructuralModes) -> AerodynamicModel:
-        """Return the aerodynamic forces of the modes."""
-        if self.aerodynamics == "lattice":
-            return self.lattice(modes)
+    def strip_theory(self, modes: StructuralModes) -> StripModel:
+        """Return strip theory for the modes, quasi-steady unless its forces are to lag."""
         lag = self.aerodynamics == "strip"
         return strip_model(self._strips, modes.by_segment, self.half_chord, lag)
+
+    def aerodynamic_model(self, modes: StructuralModes) -> AerodynamicModel:
+        """Return the aerodynamic forces of the modes."""
+        lattice = self.aerodynamics == "lattice"
+        return self.lattice(modes) if lattice else self.strip_theory(modes)
 
     def system(self, modes: StructuralModes) -> AeroelasticSystem:
         """Return the aeroelastic problem of the modes in the airstream."""
         return AeroelasticSystem(modes.omega, self.aerodynamic_model(modes), modes.damping)
+
+
+def closeness_warning(strips: Strips, fold_angles: Sequence[float]) -> str:
+    """Return in words that segments come too close for a lattice, empty when they do not.
+
+    Parameters
+    ----------
+    strips : Strips
+    fold_angles : sequence of float
+        psi_2 .. psi_N in radians, for the message.
+
+    Raises
+    ------
+    InputError
+        When segments lie on each other.
+    """
+    near = closeness(strips)
+    pair = f"segments {near.segment + 1} and {near.other + 1}"
+    if near.ratio < TOUCHING:
+        folds = ", ".join(f"{math.degrees(angle):g}" for angle in fold_angles)
+        limit = f"{pair} lie on each other, {1e3 * near.distance:.2g} mm apart"
+        remedy = "A vortex lattice cannot be folded flat: change the angle by some degrees."
+        raise InputError("fold", folds, limit, remedy)
+    if near.ratio < CLOSE:
+        return (
+            f"{pair} come within {1e3 * near.distance:.2g} mm of each other, "
+            f"{near.ratio:.2g} widths of a strip: the lattice is inaccurate there."
+        )
+    return ""
 
 
 def _panel_motion(component: ComponentModes, mesh: SegmentMesh, length: Real) -> PanelMotion:

@@ -159,3 +159,79 @@ def boundary(
         jobs=options.whole_number("--jobs", jobs),
     )
     run_boundary(request, Output(plot, out, force, json))
+
+
+@app.command()
+def convergence(
+    model: options.Model,
+    fold: options.Fold = None,
+    fold_of: options.FoldOf = None,
+    max_speed: options.MaxSpeed = None,
+    aero: options.Aero = "strip",
+    drop_mode: options.DropMode = None,
+    panels: options.Panels = None,
+    gap: options.Gap = None,
+    basis: options.Basis = None,
+    damping: options.Damping = None,
+    damping_threshold: options.Threshold = None,
+    vary: options.Vary = None,
+    levels: options.Levels = None,
+    jobs: options.Jobs = "1",
+    plot: options.Plot = True,
+    out: options.Out = None,
+    force: options.Force = False,
+    json: options.Json = False,
+) -> None:
+    """Error bars of the flutter points of one case: mesh, wake, time step, modes."""
+    from foldwing.cli.commands import Output, Request
+    from foldwing.cli.convergence import run_convergence
+
+    request = Request(
+        model,
+        fold,
+        fold_of,
+        basis=basis,
+        aero=aero,
+        drop_mode=drop_mode,
+        panels=panels,
+        gap=gap,
+        damping=options.number("--damping", damping, "0.01"),
+        damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
+        max_speed=options.number("--max-speed", max_speed, "60"),
+        jobs=options.whole_number("--jobs", jobs),
+        vary=vary,
+        levels=levels,
+    )
+    run_convergence(request, Output(plot, out, force, json))
+
+
+@app.command()
+def steady(
+    model: options.Model,
+    fold: options.Fold = None,
+    fold_of: options.FoldOf = None,
+    alpha: options.Alpha = "5",
+    speed: options.Speed = "20",
+    panels: options.Panels = None,
+    gap: options.Gap = None,
+    image: options.Image = False,
+    plot: options.Plot = True,
+    out: options.Out = None,
+    force: options.Force = False,
+    json: options.Json = False,
+) -> None:
+    """Steady lift, induced drag, hinge moments and circulation by the vortex lattice."""
+    from foldwing.cli.commands import Output
+    from foldwing.cli.steady import SteadyRequest, run_steady
+
+    request = SteadyRequest(
+        model,
+        fold,
+        fold_of,
+        panels=panels,
+        gap=gap,
+        alpha=options.given_number("--alpha", alpha, "5"),
+        speed=options.given_number("--speed", speed, "20"),
+        image=image,
+    )
+    run_steady(request, Output(plot, out, force, json))

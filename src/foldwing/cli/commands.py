@@ -52,6 +52,8 @@ class Request:
     measured: str | None = None
     trace: bool = False
     jobs: int = 1
+    vary: str | None = None
+    levels: list[str] | None = None
     method: str = "sweep"
     time_step: float | None = None
 
@@ -105,12 +107,12 @@ class Request:
 
         return fold_cases(wing, self.fold, _by_hinge(self.fold_of or []))
 
-    def one_case(self, wing: Wing) -> tuple[float, ...]:
+    def one_case(self, wing: Wing, command: str = "flutter") -> tuple[float, ...]:
         """Return the fold angles in degrees when only one case is possible."""
         cases = self.cases(wing)
         if len(cases) > 1:
             given = ", ".join(self.fold_of or [])
-            limit = f"flutter takes one set of fold angles, not {len(cases)}"
+            limit = f"{command} takes one set of fold angles, not {len(cases)}"
             remedy = "Give one angle for each hinge, or use: foldwing boundary."
             raise InputError("--fold-of", given, limit, remedy)
         return cases[0]
@@ -216,11 +218,11 @@ def run_modes(request: Request, output: Output) -> None:
     names = followed[0].modes.names
     answers = [modes_answer(case.modes, names) for case in followed]
     if output.json:
-        _print_json(answers[0] if len(answers) == 1 else {"cases": answers})
+        print_json(answers[0] if len(answers) == 1 else {"cases": answers})
     else:
-        with _shown():
+        with shown():
             tables.show_modes(answers)
-    _write(dataset, folder, output)
+    write_result(dataset, folder, output)
 
 
 def run_flutter(request: Request, output: Output) -> None:
@@ -241,7 +243,7 @@ def run_flutter(request: Request, output: Output) -> None:
     reference.check_method(request, wing, text)
     folder = output.folder("flutter", request.model)
     source, highest = Source(text, request.options), request.max_speed
-    with _computing():
+    with computing():
         if request.method == "reference":
             dataset, answer = reference.solve(request, wing, folds, speeds, source)
         else:
@@ -251,11 +253,11 @@ def run_flutter(request: Request, output: Output) -> None:
             )
             answer = flutter_answer(case)
     if output.json:
-        _print_json(answer)
+        print_json(answer)
     else:
-        with _shown():
+        with shown():
             tables.show_flutter(dataset)
-    _write(dataset, folder, output)
+    write_result(dataset, folder, output)
 
 
 def run_boundary(request: Request, output: Output) -> None:
@@ -276,7 +278,7 @@ def run_boundary(request: Request, output: Output) -> None:
         check_traceable(cases)
     folder = output.folder("boundary", request.model)
     model = request.model_of(wing)
-    with _computing(), tables.progress("Fold angles", len(cases)) as advance:
+    with computing(), tables.progress("Fold angles", len(cases)) as advance:
         result = boundary_study(
             model,
             cases,
@@ -289,11 +291,11 @@ def run_boundary(request: Request, output: Output) -> None:
     if request.trace and not result.interrupted:
         result = _with_curves(result, model)
     if output.json:
-        _print_json(boundary_answer(result))
+        print_json(boundary_answer(result))
     else:
-        with _shown():
+        with shown():
             tables.show_boundary(result.dataset)
-    _write(result.dataset, folder, output)
+    write_result(result.dataset, folder, output)
     tables.name_failures(result.outcomes, result.wanted)
     if result.interrupted or any(outcome.case is None for outcome in result.outcomes):
         raise typer.Exit(FAILED)
@@ -305,7 +307,7 @@ def _with_curves(result: "Boundary", model: "AeroelasticWing") -> "Boundary":
 
     total = result.dataset.sizes["flutter_point"]
     try:
-        with _computing(), tables.progress("Curves", total) as advance:
+        with computing(), tables.progress("Curves", total) as advance:
             return with_curves(result, model, advance)
     except KeyboardInterrupt:
         print("Interrupted: the points are kept without curves.", file=sys.stderr)
@@ -324,7 +326,7 @@ def _measured(request: Request, cases: list[tuple[float, ...]]) -> Any:
 
 
 @contextlib.contextmanager
-def _shown() -> Iterator[None]:
+def shown() -> Iterator[None]:
     """Go on without standard output when its reader has gone (``| head``): files come after it."""
     try:
         yield
@@ -334,7 +336,7 @@ def _shown() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _computing() -> Iterator[None]:
+def computing() -> Iterator[None]:
     """Name a numerical failure that left nothing to show."""
     import numpy as np
 
@@ -347,11 +349,12 @@ def _computing() -> Iterator[None]:
         ) from problem
 
 
-def _print_json(answer: dict[str, Any]) -> None:
+def print_json(answer: dict[str, Any]) -> None:
+    """Print one JSON document; NaN is refused."""
     typer.echo(json.dumps(answer, allow_nan=False))
 
 
-def _write(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> None:
+def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> None:
     """Write the dataset, its tables and its pictures into a folder, and name them."""
     if folder is None:
         return
@@ -359,9 +362,11 @@ def _write(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> No
         DATASET_FILE,
         free_name,
         result_folder,
+        write_convergence_csv,
         write_csv,
         write_dataset,
         write_frequencies_csv,
+        write_steady_csv,
     )
 
     if output.out is None:  # another run may have taken the dated name meanwhile
@@ -372,6 +377,10 @@ def _write(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> No
             write_frequencies_csv(dataset, staging / "natural_frequencies.csv")
         if "case" in dataset:
             write_csv(dataset, staging / "flutter_points.csv")
+        if "level_speed" in dataset:
+            write_convergence_csv(dataset, staging)
+        if "lift_slope" in dataset:
+            write_steady_csv(dataset, staging)
         if output.plot:
             from foldwing.plots import write_pictures, write_report
 
@@ -379,7 +388,7 @@ def _write(dataset: "xarray.Dataset", folder: Path | None, output: Output) -> No
             write_report(dataset, staging / "report.html")
         names = sorted(path.name for path in staging.iterdir() if path.name != "manifest.txt")
     stream = sys.stderr if output.json else sys.stdout
-    with _shown():
+    with shown():
         print(f"\nWritten to {folder}:", *names, sep="\n  ", file=stream)
         if output.plot:
             print(f"\nReport: {folder / 'report.html'}", file=stream)

@@ -27,8 +27,8 @@ FoldOf = Annotated[
     typer.Option(
         "--fold-of",
         metavar="I=ANGLE",
-        help="Fold of hinge I: a number, a range start:stop:step, or level. Also --foldI ANGLE: "
-        "--fold2 0:150:2.5 --fold3 level.",
+        help="Fold of hinge I: a number, a range start:stop:step, a list 0,60,90, or level. Also "
+        "--foldI ANGLE: --fold2 0:150:2.5 --fold3 level.",
     ),
 ]
 Speeds = Annotated[
@@ -80,6 +80,15 @@ Gap = Annotated[
         help='Lattice: opening between the segments at all hinges, "1 mm"; not the model\'s.',
     ),
 ]
+Image = Annotated[
+    bool,
+    typer.Option("--image", help="Lattice: a wall at the root mirrors the flow."),
+]
+Alpha = Annotated[
+    str,
+    typer.Option("--alpha", metavar="DEG", help="Angle of attack of segment 1, nose up."),
+]
+Speed = Annotated[str, typer.Option("--speed", metavar="M/S", help="Airspeed.")]
 Basis = Annotated[
     Literal["free-free", "converged"] | None,
     typer.Option(
@@ -113,6 +122,23 @@ Measured = Annotated[
 Trace = Annotated[
     bool,
     typer.Option("--trace", help="Join the points into curves, followed exactly around turns."),
+]
+Vary = Annotated[
+    str | None,
+    typer.Option(
+        "--vary",
+        metavar="NAME,...",
+        help="Vary only these: chordwise, spanwise, wake, time-step, segment-modes, system-modes, "
+        "gap. (default: all that the model has)",
+    ),
+]
+Levels = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--levels",
+        metavar="NAME=N,N,...",
+        help="Values to try, chordwise=4,8,16; the model's own is added. May be repeated.",
+    ),
 ]
 Jobs = Annotated[str, typer.Option("--jobs", metavar="N", help="Processes to run in parallel.")]
 Method = Annotated[
@@ -150,8 +176,11 @@ Json = Annotated[
 
 def number(field: str, text: str | None, example: str) -> float | None:
     """Return the number that an option was given, None when it was left out."""
-    if text is None:
-        return None
+    return None if text is None else given_number(field, text, example)
+
+
+def given_number(field: str, text: str, example: str) -> float:
+    """Return the number that an option was given or has by default."""
     try:
         return float(text)
     except ValueError:

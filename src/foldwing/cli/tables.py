@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from foldwing.model import ExampleInfo
     from foldwing.results import FlutterRow
+    from foldwing.stability.status import Status
     from foldwing.studies.boundary import Outcome
 
 MOST_ROWS = 40
@@ -22,7 +23,7 @@ MOST_MODES = 6
 """Natural frequencies of each case that the table of a sweep shows."""
 
 
-def _table(*columns: str) -> Table:
+def new_table(*columns: str) -> Table:
     """Return a table; columns whose heads are in lower case hold words, the others numbers."""
     table = Table(header_style="bold", box=None, pad_edge=False)
     for column in columns:
@@ -32,7 +33,7 @@ def _table(*columns: str) -> Table:
 
 def show_examples(models: "Sequence[ExampleInfo]", measurements: Sequence[str]) -> None:
     """Print the names of what is shipped."""
-    table = _table("model", "what it is")
+    table = new_table("model", "what it is")
     for model in models:
         table.add_row(model.name, model.title)
     console = Console(highlight=False)
@@ -46,12 +47,12 @@ def show_modes(answers: Sequence[dict[str, Any]]) -> None:
     names, folds = first["mode_names"], first["fold"]
     console = Console(highlight=False)
     if len(answers) == 1:
-        table = _table("mode", "Hz")
+        table = new_table("mode", "Hz")
         for name, frequency in zip(names, first["natural_frequencies_hz"], strict=True):
             table.add_row(name, f"{frequency:.5g}")
         console.print("Natural frequencies" + (f" at {_fold(folds)}" if folds else ""))
     else:
-        table = _table("fold, deg", *names[:MOST_MODES])
+        table = new_table("fold, deg", *names[:MOST_MODES])
         for answer in answers:
             frequencies = answer["natural_frequencies_hz"][:MOST_MODES]
             table.add_row(_angles(answer["fold"]), *(f"{f:.4g}" for f in frequencies))
@@ -66,13 +67,13 @@ def show_flutter(dataset: "xarray.Dataset") -> None:
     from foldwing.results.summary import answer
 
     rows = flutter_rows(dataset)
-    table = _table("U m/s", "f Hz", "kind", "event", "class", "mode", "S s/m")
+    table = new_table("U m/s", "f Hz", "kind", "event", "class", "mode", "S s/m")
     for row in rows:
         strength = "" if row.strength != row.strength else f"{row.strength:.4f}"
         cells = (row.kind, row.event, row.classification, row.mode_name, strength)
         table.add_row(f"{row.speed:.2f}", f"{row.frequency:.2f}", *cells)
     console = Console(highlight=False)
-    console.print(_plain(answer(dataset)))
+    console.print(plain(answer(dataset)))
     if rows:
         console.print(table)
     speeds = dataset["speed"].values
@@ -87,7 +88,7 @@ def _conclude(console: Console, dataset: "xarray.Dataset") -> None:
     from foldwing.results.summary import certificate, response, warnings
 
     for text in filter(None, (response(dataset), certificate(dataset), warnings(dataset))):
-        console.print(_plain(text))
+        console.print(plain(text))
 
 
 def show_boundary(dataset: "xarray.Dataset") -> None:
@@ -98,7 +99,7 @@ def show_boundary(dataset: "xarray.Dataset") -> None:
     hinges, failed = fold_angle_names(dataset), set(failed_cases(dataset))
     brief = dataset.sizes["fold"] > MOST_ROWS
     columns = ["U m/s", "f Hz", "kind", "class", "mode", "further points, m/s"]
-    table = _table(*["fold, deg"][: len(hinges)], *columns[: -1 if brief else None])
+    table = new_table(*["fold, deg"][: len(hinges)], *columns[: -1 if brief else None])
     by_case: dict[int, list[FlutterRow]] = {}
     for row in flutter_rows(dataset):
         by_case.setdefault(row.case, []).append(row)
@@ -113,7 +114,7 @@ def show_boundary(dataset: "xarray.Dataset") -> None:
     console.print(table)
     if brief:
         console.print("\nFurther points of each case are in flutter_points.csv.")
-    console.print(_plain(f"\n{answer(dataset)}"))
+    console.print(plain(f"\n{answer(dataset)}"))
     if dataset.attrs.get("turning"):
         console.print(f"The boundary turns back at {dataset.attrs['turning']} deg.")
     _conclude(console, dataset)
@@ -141,10 +142,20 @@ def name_failures(outcomes: "Sequence[Outcome]", wanted: int) -> None:
     for outcome in outcomes:
         if outcome.status:
             reason = outcome.message or "the count of unstable roots does not agree"
-            where = _fold(outcome.folds) or "this wing"
-            _say(f"{where}: {outcome.status.meaning}: {reason}")
+            name_failure(outcome.folds, outcome.status, reason)
     if len(outcomes) < wanted:
         _say(f"Interrupted: {len(outcomes)} of {wanted} cases are finished and were kept.")
+
+
+def name_problems(texts: Sequence[str]) -> None:
+    """Say on standard error what failed, a line each."""
+    for text in texts:
+        _say(text)
+
+
+def name_failure(folds: Sequence[float], status: "Status", reason: str) -> None:
+    """Say on standard error how a case ended and why."""
+    _say(f"{_fold(folds) or 'this wing'}: {status.meaning}: {reason}")
 
 
 @contextlib.contextmanager
@@ -175,7 +186,7 @@ def _angles(folds: Sequence[float]) -> str:
     return ", ".join(f"{angle:g}" for angle in folds)
 
 
-def _plain(text: str) -> str:
+def plain(text: str) -> str:
     """Return text whose minus signs every terminal can show."""
     return text.replace("\N{MINUS SIGN}", "-")
 

@@ -214,7 +214,7 @@ class Analysis(Record):
     damping_threshold: DampingThreshold = 0.0
 
 
-MOST_PANELS = 1000
+MOST_DIVISIONS = 1000
 """Largest number of panels along a chord, or of strips along a segment."""
 
 
@@ -245,8 +245,8 @@ class Lattice(Record):
         quarters of a panel's own circulation).
     """
 
-    chordwise: Annotated[int, Count(1, MOST_PANELS)] = 8
-    spanwise: Annotated[int | tuple[int, ...], Counts(1, MOST_PANELS)] = 30
+    chordwise: Annotated[int, Count(1, MOST_DIVISIONS)] = 8
+    spanwise: Annotated[int | tuple[int, ...], Counts(1, MOST_DIVISIONS)] = 30
     wake: WakeLength = 20.0
     relaxation: Relaxation = 0.0
     image: StrictBool = False

@@ -14,6 +14,9 @@ from foldwing.model.record import Record
 GAP = Quantity("a length", "m", '"1 mm"', Bounds(at_least=0.0))
 IMBALANCE = Quantity("a static imbalance", "", "0.1", Bounds(at_least=0.0))
 
+MOST_PANELS, MOST_ROWS = 20_000, 100_000
+"""Panels and wake rows beyond which a lattice would not fit into the memory of most machines."""
+
 _ROUND_OFF = 1e-9
 """Relative excess that a length may have by conversion of units alone."""
 
@@ -103,6 +106,13 @@ class Wing(Record):
         if isinstance(strips, int) and strips < self.count:
             limit = f"must be at least one strip for each of {self.count} segments"
             raise fault(("lattice", "spanwise"), strips, limit, "Give a larger number.")
+        total = sum(strips) if isinstance(strips, tuple) else strips
+        if total * self.lattice.chordwise > MOST_PANELS:
+            limit = f"a lattice may have {MOST_PANELS} panels, chordwise times spanwise"
+            raise fault(("lattice", "spanwise"), total, limit, "Take fewer panels.")
+        if self.lattice.wake * self.lattice.chordwise > MOST_ROWS:
+            limit = f"the wake may have {MOST_ROWS} rows, its length times chordwise"
+            raise fault(("lattice", "wake"), self.lattice.wake, limit, "Take a shorter wake.")
 
     @property
     def count(self) -> int:

@@ -7,7 +7,11 @@ A picture is described once (`picture`) and drawn by two renderers.
 `loci`                      growth and frequency against airspeed; the root locus
 `boundary`                  flutter speed, frequency and strength against the fold angle
 `shapes`                    mode shapes, and the motion at flutter
+`energy`                    the work of the air on segments and modes at flutter
+`loads`                     pressure and circulation at flutter
+`steady`                    circulation of a steady wing
 `determinant`               zero lines of the determinant
+`convergence`               airspeeds against the fineness of the computation
 `catalogue`                 which of these a dataset has
 `layout`, `palette`         what they share: labels, ranges, colours by role
 `events`                    how flutter points look, the same everywhere

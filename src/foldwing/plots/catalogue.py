@@ -4,12 +4,16 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from foldwing.plots.boundary import boundary, boundary_map
+from foldwing.plots.convergence import convergence
 from foldwing.plots.determinant import determinant_contours
+from foldwing.plots.energy import work_of_modes, work_of_segments
 from foldwing.plots.frequencies import natural_frequencies
+from foldwing.plots.loads import flutter_circulation, pressure, pressure_of_modes
 from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.picture import Picture
 from foldwing.plots.response import response
 from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
+from foldwing.plots.steady import circulation, circulation_across, circulation_in_space
 
 if TYPE_CHECKING:
     import xarray
@@ -23,6 +27,15 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     natural_frequencies,
     mode_shapes,
     flutter_phases,
+    work_of_segments,
+    work_of_modes,
+    pressure,
+    pressure_of_modes,
+    flutter_circulation,
+    convergence,
+    circulation,
+    circulation_across,
+    circulation_in_space,
     response,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""

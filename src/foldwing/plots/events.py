@@ -30,6 +30,11 @@ def words(row: FlutterRow) -> str:
     return _WORDS.get((row.kind, row.event), f"{row.kind} {row.event}")
 
 
+def symbol_of(row: FlutterRow) -> Symbol:
+    """Return the symbol of a flutter point."""
+    return _SYMBOLS.get((row.kind, row.event), "x")
+
+
 def color_of(row: FlutterRow, colors: dict[str, str]) -> str:
     """Return the colour role: of the mode for flutter, its own for divergence."""
     return colors.get(row.mode_name, "ink") if row.kind == "flutter" else "divergence"

@@ -6,7 +6,7 @@ are first written as roles (``@ink``, ``@series1/0.2``), so that one figure serv
 """
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from foldwing.plots.picture import (
     Note,
     Panel,
     Picture,
+    Range,
     Rule,
     ZeroLine,
 )
@@ -32,7 +33,9 @@ _PIXELS = 260
 """Height of a panel whose relative height is 1."""
 _POINT = 4.0 / 3.0
 """Pixels per point."""
-_GAP = 22
+_GAP, _ROW_GAP = 22, 62
+_COLUMN_GAP = 0.12
+Domain = tuple[tuple[float, float] | None, tuple[float, float]]
 _TOP, _BOTTOM, _LEGEND_ROW = 30, 56, 22
 _DASHES = {"solid": "solid", "dash": "8px,4px", "dot": "2px,3px"}
 _SYMBOLS = {
@@ -56,7 +59,7 @@ def figure(picture: Picture) -> Json:
         return scenes_figure(picture)
     labels = {getattr(item, "label", "") for panel in panels for item in panel.items} - {""}
     rows = -(-len(labels) // 3)
-    inner = sum(_PIXELS * panel.height for panel in panels) + _GAP * (len(panels) - 1)
+    domains, inner = _domains(panels, picture.columns)
     foot = _BOTTOM + rows * _LEGEND_ROW + (8 if rows else 0)
     layout = base_layout()
     layout |= {
@@ -70,14 +73,30 @@ def figure(picture: Picture) -> Json:
         "shapes": [],
     }  # fmt: skip
     data: list[Json] = []
-    upper = 1.0
-    for number, panel in enumerate(panels, start=1):
-        lower = upper - _PIXELS * panel.height / inner
-        _add_axes(layout, panel, number, (max(lower, 0.0), upper), last=panel is panels[-1])
+    for number, (panel, domain) in enumerate(zip(panels, domains, strict=True), start=1):
+        _add_axes(layout, panel, number, domain, last=panel is panels[-1])
         for item in panel.items:
             _add_item(data, layout, item, panel, number)
-        upper = lower - _GAP / inner
     return {"data": _legend_once(data), "layout": layout, "frames": []}
+
+
+def _domains(panels: list[Panel], columns: int) -> tuple[list[Domain], float]:
+    """Return the part of the width (None: all) and of the height of each panel, and the height."""
+    gap = _GAP if columns == 1 else _ROW_GAP
+    rows = [panels[first : first + columns] for first in range(0, len(panels), columns)]
+    heights = [_PIXELS * max(panel.height for panel in row) for row in rows]
+    inner = sum(heights) + gap * (len(rows) - 1)
+    width = (1.0 - _COLUMN_GAP * (columns - 1)) / columns
+    domains: list[Domain] = []
+    upper = 1.0
+    for row, height in zip(rows, heights, strict=True):
+        lower = upper - height / inner
+        for column in range(len(row)):
+            left = column * (width + _COLUMN_GAP)
+            part = None if columns == 1 else (left, min(left + width, 1.0))
+            domains.append((part, (max(lower, 0.0), upper)))
+        upper = lower - gap / inner
+    return domains, inner
 
 
 def colored(node: Any, theme: str) -> Any:
@@ -98,30 +117,37 @@ def _color(colors: Mapping[str, str], role: str, opacity: str | None) -> str:
     return f"rgba({red},{green},{blue},{opacity})"
 
 
-def _add_axes(
-    layout: Json, panel: Panel, number: int, domain: tuple[float, float], last: bool
-) -> None:
-    line = {"gridcolor": "@grid", "zeroline": False, "linecolor": "@muted", "showline": True}
+def _add_axes(layout: Json, panel: Panel, number: int, domain: Domain, last: bool) -> None:
     suffix = "" if number == 1 else str(number)
-    x: Json = {**line, "anchor": f"y{suffix}", "showticklabels": last, "ticks": "outside"}
+    across, upright = domain
+    shown = last or across is not None
+    x = _axis(panel.x_label if shown else "", panel.x_range, panel.log_x, panel.x_ticks)
+    x |= {"anchor": f"y{suffix}", "showticklabels": shown, "ticks": "outside"}
     x |= {"tickcolor": "@muted", "ticklen": 4}
-    if last:
-        x["title"] = {"text": panel.x_label, "standoff": 8}
-    if number > 1:
+    if across is not None:
+        x["domain"] = list(across)
+    elif number > 1:
         x["matches"] = "x"
-    if panel.x_range:
-        x["range"] = list(panel.x_range)
-    y: Json = {**line, "domain": list(domain), "title": {"text": panel.y_label, "standoff": 8}}
-    if panel.y_range:
-        y["range"] = list(np.log10(panel.y_range) if panel.log_y else panel.y_range)
-    if panel.log_y:
-        y["type"] = "log"
-    if panel.y_ticks is not None:
-        y |= {
-            "tickvals": [at for at, _ in panel.y_ticks],
-            "ticktext": [text for _, text in panel.y_ticks],
-        }
+    y = _axis(panel.y_label, panel.y_range, panel.log_y, panel.y_ticks)
+    y |= {"domain": list(upright)}
+    y |= {"anchor": f"x{suffix}"} if across is not None else {}
+    y |= {"scaleanchor": f"x{suffix}", "scaleratio": 1} if panel.equal else {}
     layout[f"xaxis{suffix}"], layout[f"yaxis{suffix}"] = x, y
+
+
+def _axis(
+    label: str, limits: Range | None, log: bool, ticks: Sequence[tuple[float, str]] | None
+) -> Json:
+    axis: Json = {"gridcolor": "@grid", "zeroline": False, "linecolor": "@muted", "showline": True}
+    if label:
+        axis["title"] = {"text": label, "standoff": 8}
+    if limits:
+        axis["range"] = list(np.log10(limits) if log else limits)
+    if log:
+        axis["type"] = "log"
+    if ticks is not None:
+        axis |= {"tickvals": [at for at, _ in ticks], "ticktext": [text for _, text in ticks]}
+    return axis
 
 
 def _add_item(data: list[Json], layout: Json, item: Any, panel: Panel, number: int) -> None:
@@ -156,7 +182,7 @@ def _scale(item: Graded | Cells) -> Json:
 def _note(note: Note, panel: Panel, suffix: str) -> Json:
     text = f"<b>{note.text}</b>" if note.bold else note.text
     found: Json = {
-        "x": note.x,
+        "x": float(np.log10(note.x)) if panel.log_x else note.x,
         "y": float(np.log10(note.y)) if panel.log_y else note.y,
         "xref": f"x{suffix}",
         "yref": f"y{suffix}",

@@ -4,6 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from foldwing.plots.palette import SCALES
+
 Json = dict[str, Any]
 
 
@@ -26,7 +28,8 @@ def base_layout() -> Json:
 
 def color_scale(scale: str) -> list[list[Any]]:
     """Return the colours of a scale from low to high, as roles."""
-    return [[0.0, f"@{scale}0"], [0.5, f"@{scale}1"], [1.0, f"@{scale}2"]]
+    roles = SCALES[scale]
+    return [[index / (len(roles) - 1), f"@{role}"] for index, role in enumerate(roles)]
 
 
 def numbers(values: Any) -> Any:

@@ -10,11 +10,14 @@ from foldwing.plots.picture import Picture, Scene, Surface, Tag, Thread
 
 _HEIGHT = 300
 _FILM_HEIGHT = 460
+_BAR = 64
+"""Height of a scale of colours with its label."""
 _FRAME_MILLISECONDS = 50
 _CYCLES = 20
 _ZOOM, _FILM_ZOOM = 2.0, 2.6
 """Length of the longest side of the box in the view."""
-_EYE = {"x": 1.15, "y": -0.90, "z": 0.65}
+_DISTANCE = 1.6
+"""Of the eye from the middle of the view."""
 
 
 def scenes_figure(picture: Picture) -> Json:
@@ -31,9 +34,16 @@ def scenes_figure(picture: Picture) -> Json:
     for number, scene in enumerate(scenes):
         name = "scene" if number == 0 else f"scene{number + 1}"
         domain = _domain(number, picture.columns, rows)
-        layout[name] = _axes(scene, domain, _FILM_ZOOM if picture.frames else _ZOOM)
+        bar = 0.0 if scene.graded is None else _BAR / rows / _HEIGHT
+        place = domain[0], (domain[1][0] + bar, domain[1][1])
+        layout[name] = _axes(scene, place, _FILM_ZOOM if picture.frames else _ZOOM)
+        layout[name]["camera"]["eye"] = _eye(picture.view)
         layout["annotations"] += [_title(scene.title, domain)] if scene.title else []
-        data += [{**_TRACES[type(item)](item), "scene": name} for item in scene.items]
+        traces = [{**_TRACES[type(item)](item), "scene": name} for item in scene.items]
+        if scene.graded is not None:
+            shown = next(n for n, item in enumerate(scene.items) if item is scene.graded)
+            traces[shown] |= {"showscale": True, "colorbar": _bar(scene, domain)}
+        data += traces
     if picture.frames:
         layout["updatemenus"] = [_buttons(len(picture.frames))]
     return {"data": data, "layout": layout, "frames": _frames(picture)}
@@ -58,9 +68,16 @@ def _axes(scene: Scene, domain: tuple[tuple[float, float], ...], zoom: float) ->
             letter: zoom * float(side) for letter, side in zip("xyz", sides, strict=True)
         },
         "domain": {"x": list(domain[0]), "y": [domain[1][0], domain[1][1] - 0.03]},
-        "camera": {"eye": _EYE, "projection": {"type": "orthographic"}},
+        "camera": {"projection": {"type": "orthographic"}},
         "bgcolor": "@paper",
     }
+
+
+def _eye(view: tuple[float, float]) -> Json:
+    azimuth, elevation = np.radians(view)
+    flat, up = _DISTANCE * np.cos(elevation), _DISTANCE * np.sin(elevation)
+    place = {"x": flat * np.cos(azimuth), "y": flat * np.sin(azimuth), "z": up}
+    return {letter: round(float(value), 3) for letter, value in place.items()}
 
 
 def _room(scene: Scene) -> list[tuple[float, float]]:
@@ -89,7 +106,52 @@ def _title(text: str, domain: tuple[tuple[float, float], ...]) -> Json:
     }
 
 
+def _bar(scene: Scene, domain: tuple[tuple[float, float], ...]) -> Json:
+    """Return the scale of colours below a scene."""
+    return {
+        "orientation": "h",
+        "x": sum(domain[0]) / 2,
+        "xanchor": "center",
+        "y": domain[1][0],
+        "yanchor": "bottom",
+        "len": 0.7 * (domain[0][1] - domain[0][0]),
+        "thickness": 12,
+        "outlinewidth": 0,
+        "title": {"text": scene.value_label, "side": "bottom", "font": {"size": 12}},
+        **({"tickvals": list(scene.ticks)} if scene.ticks else {}),
+    }
+
+
+def _faces(surface: Surface) -> Json:
+    """Return a sheet whose faces have one colour each, as two triangles for each face."""
+    rows, columns = surface.x.shape
+    number = np.arange(rows * columns).reshape(rows, columns)
+    a, b, c, d = (part.ravel() for part in _around(number))
+    i, j, k = np.stack([a, a], 1), np.stack([b, c], 1), np.stack([c, d], 1)
+    return {
+        "type": "mesh3d",
+        **{letter: numbers(getattr(surface, letter).ravel()) for letter in "xyz"},
+        **{letter: part.ravel().tolist() for letter, part in zip("ijk", (i, j, k), strict=True)},
+        "intensity": numbers(np.repeat(np.asarray(surface.values).ravel(), 2)),
+        "intensitymode": "cell",
+        "colorscale": color_scale(surface.scale),
+        "cmin": surface.limits[0],
+        "cmax": surface.limits[1],
+        "showscale": False,
+        "hoverinfo": "skip",
+        "flatshading": True,
+        "lighting": {"ambient": 1.0, "diffuse": 0.0, "specular": 0.0},
+    }
+
+
+def _around(number: Any) -> tuple[Any, ...]:
+    """Return the corners of every face in their order around it."""
+    return number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+
+
 def _surface(surface: Surface) -> Json:
+    if surface.by_face:
+        return _faces(surface)
     trace: Json = {
         "type": "surface",
         "x": numbers(surface.x),
@@ -109,7 +171,7 @@ def _surface(surface: Surface) -> Json:
         }
     return trace | {
         "surfacecolor": numbers(surface.values),
-        "colorscale": color_scale("diverging"),
+        "colorscale": color_scale(surface.scale),
         "cmin": surface.limits[0],
         "cmax": surface.limits[1],
     }

@@ -13,6 +13,8 @@ from foldwing.results.summary import degrees
 if TYPE_CHECKING:
     import xarray
 
+WIDTH_INCHES = 8.0
+"""Width of a picture."""
 PANEL_INCHES = 2.6
 """Height of a panel whose relative height is 1."""
 ROUND_OFF = 1e-6

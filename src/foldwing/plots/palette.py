@@ -34,6 +34,10 @@ THEMES: Mapping[str, Mapping[str, str]] = {
         "diverging0": "#1f66b0",
         "diverging1": "#eceef1",
         "diverging2": "#c0392b",
+        "cycle0": "#22356f",
+        "cycle1": "#2f9487",
+        "cycle2": "#f0cc4d",
+        "cycle3": "#b8456f",
     },
     "dark": {
         "paper": "#14171c",
@@ -58,8 +62,20 @@ THEMES: Mapping[str, Mapping[str, str]] = {
         "diverging0": "#62aef5",
         "diverging1": "#4a525e",
         "diverging2": "#ff8571",
+        "cycle0": "#4459b8",
+        "cycle1": "#45bfae",
+        "cycle2": "#ffe28c",
+        "cycle3": "#de6d9c",
     },
 }
+
+
+SCALES: Mapping[str, tuple[str, ...]] = {
+    "speed": ("speed0", "speed1", "speed2"),
+    "diverging": ("diverging0", "diverging1", "diverging2"),
+    "cycle": ("cycle0", "cycle1", "cycle2", "cycle3", "cycle0"),
+}
+"""Roles of the colours of a scale from low to high; that of an angle ends as it starts."""
 
 
 def mode_colors(dataset: "xarray.Dataset") -> dict[str, str]:

@@ -16,7 +16,7 @@ Dash = Literal["solid", "dash", "dot"]
 Symbol = Literal[
     "circle", "circle-open", "square", "square-open", "diamond", "x", "star", "triangle", "ring"
 ]
-Scale = Literal["speed", "diverging"]
+Scale = Literal["speed", "diverging", "cycle"]
 Range = tuple[float, float]
 
 
@@ -137,7 +137,7 @@ Item = Line | Graded | Marks | Area | Rule | Bars | Note | ZeroLine | Cells
 
 @dataclass(frozen=True)
 class Panel:
-    """Axes in the plane with their items, drawn in order."""
+    """Axes in the plane with their items, drawn in order; ``equal``: one scale along both."""
 
     x_label: str
     y_label: str
@@ -148,11 +148,17 @@ class Panel:
     y_ticks: Sequence[tuple[float, str]] | None = None
     title: str = ""
     height: float = 1.0
+    log_x: bool = False
+    x_ticks: Sequence[tuple[float, str]] | None = None
+    equal: bool = False
 
 
 @dataclass(frozen=True)
 class Surface:
-    """A sheet in space of shape (n, m): coloured by ``values``, or plain."""
+    """A sheet in space of shape (n, m): plain, or coloured by ``values``.
+
+    These belong to its points, or to its faces when their shape is (n - 1, m - 1).
+    """
 
     x: Array
     y: Array
@@ -161,6 +167,12 @@ class Surface:
     limits: Range = (-1.0, 1.0)
     color: str = "sheet"
     opacity: float = 1.0
+    scale: Scale = "diverging"
+
+    @property
+    def by_face(self) -> bool:
+        """Whether the values belong to the faces."""
+        return self.values is not None and self.values.shape != self.x.shape
 
 
 @dataclass(frozen=True)
@@ -186,11 +198,23 @@ class Tag:
 
 @dataclass(frozen=True)
 class Scene:
-    """A view in space, the same scale along all axes."""
+    """A view in space, the same scale along all axes.
+
+    With a ``value_label`` it has a scale of colours, that of its first coloured sheet; ``ticks``
+    are the values marked there.
+    """
 
     title: str
     items: Sequence[Surface | Thread | Tag]
     box: tuple[Range, Range, Range]
+    value_label: str = ""
+    ticks: Sequence[float] = ()
+
+    @property
+    def graded(self) -> Surface | None:
+        """The sheet whose colours are explained; None when they need no explanation."""
+        colored = (s for s in self.items if isinstance(s, Surface) and s.values is not None)
+        return next(colored, None) if self.value_label else None
 
 
 @dataclass(frozen=True)
@@ -206,8 +230,11 @@ class Picture:
     caption : str
         How to read it, one or two sentences.
     panels : sequence of Panel or of Scene
-        Panels lie below each other and share x; scenes fill rows of ``columns``.
+        Panels in one column lie below each other and share x; scenes, and panels in more columns,
+        fill rows and have their own.
     columns : int
+    view : (float, float)
+        Whence scenes are seen, in degrees: azimuth from downstream towards outboard, elevation.
     right_margin : float
         Room for labels at the right-hand ends of the lines, in inches.
     frames : sequence of sequence of Surface
@@ -219,6 +246,7 @@ class Picture:
     caption: str
     panels: Sequence[Panel] | Sequence[Scene]
     columns: int = 1
+    view: tuple[float, float] = (-38.0, 24.0)
     right_margin: float = 0.35
     frames: Sequence[Sequence[Surface]] = field(default=())
 

@@ -12,7 +12,8 @@ from foldwing.plots.interactive import figure
 from foldwing.plots.palette import THEMES
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
-from foldwing.results.summary import answer, certificate, degrees, warnings
+from foldwing.results.steady_table import LEGEND, loads_table, segments_table
+from foldwing.results.summary import answer, certificate, degrees, fold_text, warnings
 
 if TYPE_CHECKING:
     import xarray
@@ -147,16 +148,34 @@ def _certificate(dataset: "xarray.Dataset") -> list[str]:
 def _table(dataset: "xarray.Dataset") -> list[str]:
     if dataset.attrs["kind"] == "modes":
         return []
+    if dataset.attrs["kind"] == "steady":
+        return _loads(dataset)
     rows = flutter_rows(dataset)
     if not rows:
         return ["<h2>Flutter points</h2>", "<p>None were found.</p>"]
     hinges = [name.removeprefix("fold_") for name in fold_angle_names(dataset)]
     heads = [*(f"hinge {hinge}" for hinge in hinges), *_COLUMNS]
-    lines = [_line(_cells(row)) for row in rows]
-    head = "".join(f"<th>{html.escape(text)}</th>" for text in heads)
-    table = f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table>"
+    table = _html(heads, [_cells(row) for row in rows])
     note = f" ({len(rows)} rows)" if len(rows) > _LONG_TABLE else ""
     return [f"<h2>Flutter points{note}</h2>", f'<div class="scroll">{table}</div>']
+
+
+def _html(heads: Sequence[str], rows: Iterable[Iterable[str]]) -> str:
+    head = "".join(f"<th>{html.escape(text)}</th>" for text in heads)
+    lines = "".join(_line(row) for row in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table>"
+
+
+def _loads(dataset: "xarray.Dataset") -> list[str]:
+    """Return the loads on the wing, and those on the segments of the first case."""
+    first = fold_text(dataset, 0)
+    return [
+        "<h2>Steady loads</h2>",
+        f'<p class="small">{html.escape(LEGEND)}</p>',
+        f'<div class="scroll">{_html(*loads_table(dataset))}</div>',
+        f"<h2>On each segment{f', {first}' if first else ''}</h2>",
+        f'<div class="scroll">{_html(*segments_table(dataset))}</div>',
+    ]
 
 
 _COLUMNS = ("what happens", "speed (m/s)", "frequency (Hz)", "mode", "class", "strength (s/m)")

@@ -29,17 +29,17 @@ def mode_shapes(dataset: "xarray.Dataset") -> Picture | None:
     if case is None:
         return None
     where = fold_text(dataset, case)
-    rest = _segments(dataset, dataset["position"].values[case])
+    rest = sheets(dataset, dataset["position"].values[case])
     frequency = dataset["natural_frequency"].values[case]
     names = dataset["mode_name"].values[case]
     shapes = dataset["mode_shape"].values[case]
     modes = np.argsort(frequency)[: np.isfinite(frequency).sum()][:_MOST_MODES]
-    moved = [_scaled(_segments(dataset, shapes[mode]), rest) for mode in modes]
-    box = _box(rest, [_added(rest, motion) for motion in moved])
+    moved = [_scaled(sheets(dataset, shapes[mode]), rest) for mode in modes]
+    box = box_around(rest, [_added(rest, motion) for motion in moved])
     scenes = [
         Scene(
             f"{names[mode]}: {frequency[mode]:.3g} Hz",
-            [*_at_rest(rest), *_deformed(rest, motion), *_signs(rest)],
+            [*_at_rest(rest), *_deformed(rest, motion), *signs(rest)],
             box,
         )
         for mode, motion in zip(modes, moved, strict=True)
@@ -71,7 +71,7 @@ def flutter_phases(dataset: "xarray.Dataset") -> Picture | None:
         ]
         time = "" if row.frequency <= 0 else f" ({1000 * step / _PHASES / row.frequency:.0f} ms)"
         title = f"{step}/{_PHASES} of the cycle{time}"
-        scenes.append(Scene(title, [*ghosts, *_deformed(rest, now), *_signs(rest)], box))
+        scenes.append(Scene(title, [*ghosts, *_deformed(rest, now), *signs(rest)], box))
     return Picture(
         "flutter-motion",
         f"One cycle of the flutter motion at {row.speed:.3g} m/s and {row.frequency:.3g} Hz",
@@ -88,7 +88,7 @@ def flutter_films(dataset: "xarray.Dataset", most: int = 3) -> list[Picture]:
         frames = [
             list(_deformed(rest, _at_phase(motion, step / _FRAMES))) for step in range(_FRAMES)
         ]
-        still = [*_at_rest(rest), *_signs(rest)]
+        still = [*_at_rest(rest), *signs(rest)]
         films.append(
             Picture(
                 f"flutter-film-{number + 1}",
@@ -112,10 +112,10 @@ def flutter_motions(dataset: "xarray.Dataset") -> list[Motion]:
     for index, row in enumerate(flutter_rows(dataset)):
         usable = np.isfinite(shapes[index]).all() and np.abs(shapes[index]).max() > 0
         if (row.kind, row.event) == ("flutter", "onset") and usable:
-            rest = _segments(dataset, dataset["position"].values[row.case])
-            motion = _scaled(_segments(dataset, shapes[index]), rest)
+            rest = sheets(dataset, dataset["position"].values[row.case])
+            motion = _scaled(sheets(dataset, shapes[index]), rest)
             turned = [_added(rest, _at_phase(motion, step / _FRAMES)) for step in range(_FRAMES)]
-            found.append((row, rest, motion, _box(rest, turned)))
+            found.append((row, rest, motion, box_around(rest, turned)))
     return sorted(found, key=lambda entry: entry[0].speed)
 
 
@@ -134,7 +134,7 @@ def _shown_case(dataset: "xarray.Dataset") -> int | None:
     return int(usable[len(usable) // 2]) if usable.size else None
 
 
-def _segments(dataset: "xarray.Dataset", values: Array) -> _PER_SEGMENT:
+def sheets(dataset: "xarray.Dataset", values: Array) -> _PER_SEGMENT:
     """Return values on (point, axis) as one grid (span, chord, axis) for each segment."""
     segment = dataset["segment"].values
     spanwise, chordwise = dataset["spanwise"].values, dataset["chordwise"].values
@@ -199,7 +199,7 @@ def _outline(grids: _PER_SEGMENT) -> Iterator[Array]:
         yield np.concatenate([grid[0], grid[1:, -1], grid[-1, -2::-1], grid[-2::-1, 0]])
 
 
-def _signs(rest: _PER_SEGMENT) -> Iterator[Thread | Tag]:
+def signs(rest: _PER_SEGMENT) -> Iterator[Thread | Tag]:
     """Return an arrow along the air stream, and the clamped root."""
     size = _size(rest)
     root = rest[0][0]
@@ -210,7 +210,8 @@ def _signs(rest: _PER_SEGMENT) -> Iterator[Thread | Tag]:
     yield Tag(stream[0] - [0.02 * size, 0.04 * size, 0.0], "air", "ink")
 
 
-def _box(rest: _PER_SEGMENT, moved: list[_PER_SEGMENT]) -> tuple[Range, Range, Range]:
+def box_around(rest: _PER_SEGMENT, moved: list[_PER_SEGMENT]) -> tuple[Range, Range, Range]:
+    """Return ranges along all axes that hold the wing at rest and moved, with some room."""
     points = np.concatenate([g.reshape(-1, 3) for grids in (rest, *moved) for g in grids])
     room = 0.02 * _size(rest)
     low, high = np.nanmin(points, axis=0) - room, np.nanmax(points, axis=0) + room

@@ -39,7 +39,8 @@ from foldwing.plots.static_base import (
 )
 from foldwing.plots.static_scenes import draw_scenes
 
-_LEFT, _BOTTOM, _GAP = 0.88, 0.52, 0.18
+_LEFT, _BOTTOM, _GAP, _ROW_GAP = 0.88, 0.52, 0.18, 0.62
+Box = tuple[float, float, float, float]
 _DASHES: Mapping[str, Any] = {"solid": "-", "dash": (0, (5, 2)), "dot": (0, (1.2, 1.6))}
 _MARKERS = {
     "circle": "o",
@@ -71,24 +72,32 @@ def draw(picture: Picture, theme: str = "light") -> Figure:
     caption = wrapped(picture.caption)
     head = 0.36 + LINE * len(caption) + 0.16
     foot = _BOTTOM + LINE * -(-len(legend) // 3) + (0.12 if legend else 0.0)
-    heights = [PANEL_INCHES * panel.height for panel in panels]
-    total = head + sum(heights) + _GAP * (len(panels) - 1) + foot
+    boxes, inner = _boxes(panels, picture)
+    total = head + inner + foot
     figure = new_figure(WIDTH, total, colors)
     write_head(figure, picture.title, caption, colors)
-    below = total - head
-    bars: list[Any] = []
-    for panel, height in zip(panels, heights, strict=True):
-        below -= height
-        right = picture.right_margin + (0.75 if _graded(panel) else 0.0)
-        axes = figure.add_axes(
-            (_LEFT / WIDTH, below / total, 1 - (_LEFT + right) / WIDTH, height / total)
-        )
-        _fill(axes, panel, colors, last=panel is panels[-1])
-        bars += [axes] if _graded(panel) else []
-        below -= _GAP
+    for panel, (left, top, width, height) in zip(panels, boxes, strict=True):
+        below = total - head - top - height
+        axes = figure.add_axes((left / WIDTH, below / total, width / WIDTH, height / total))
+        _fill(axes, panel, colors, last=panel is panels[-1] or picture.columns > 1)
     if legend:
         _add_legend(figure, legend, colors)
     return figure
+
+
+def _boxes(panels: list[Panel], picture: Picture) -> tuple[list[Box], float]:
+    """Return left, top, width and height of each panel in inches, and the height of all."""
+    columns = picture.columns
+    gap = _GAP if columns == 1 else _ROW_GAP
+    boxes, top = [], 0.0
+    for first in range(0, len(panels), columns):
+        row = panels[first : first + columns]
+        height = PANEL_INCHES * max(panel.height for panel in row)
+        right = picture.right_margin + (0.75 if any(map(_graded, row)) else 0.0)
+        width = (WIDTH - right) / columns - _LEFT
+        boxes += [(_LEFT + i * (_LEFT + width), top, width, height) for i in range(len(row))]
+        top += height + gap
+    return boxes, top - gap
 
 
 def _graded(panel: Panel) -> bool:
@@ -107,6 +116,8 @@ def _fill(axes: Axes, panel: Panel, colors: Colors, last: bool) -> None:
     axes.yaxis.set_label_coords(-0.64 / (WIDTH * axes.get_position().width), 0.5)
     if last:
         axes.set_xlabel(panel.x_label, color=colors["ink"], size=9.5)
+    if panel.log_x:
+        axes.set_xscale("log")
     if panel.log_y:
         axes.set_yscale("log")
     for number, item in enumerate(panel.items):
@@ -115,10 +126,17 @@ def _fill(axes: Axes, panel: Panel, colors: Colors, last: bool) -> None:
         axes.set_xlim(panel.x_range)
     if panel.y_range:
         axes.set_ylim(panel.y_range)
-    if panel.y_ticks is not None:
-        axes.set_yticks([at for at, _ in panel.y_ticks], [text for _, text in panel.y_ticks])
-        axes.minorticks_off()
+    if panel.equal:
+        axes.set_aspect("equal", adjustable="datalim")
+    _set_ticks(axes, panel)
     _add_scale(axes, panel, colors)
+
+
+def _set_ticks(axes: Axes, panel: Panel) -> None:
+    for ticks, axis in ((panel.x_ticks, axes.xaxis), (panel.y_ticks, axes.yaxis)):
+        if ticks is not None:
+            axis.set_ticks([at for at, _ in ticks], [text for _, text in ticks])
+            axis.minorticks_off()
 
 
 def _line(axes: Axes, line: Line, colors: Colors, order: float) -> None:

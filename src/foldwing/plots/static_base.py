@@ -7,9 +7,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
+from foldwing.plots.layout import WIDTH_INCHES
+from foldwing.plots.palette import SCALES
+
 Colors = Mapping[str, str]
 
-WIDTH = 8.0
+WIDTH = WIDTH_INCHES
 LINE = 0.19
 """Height of a line of caption or legend in inches."""
 
@@ -38,4 +41,4 @@ def write_head(figure: Figure, title: str, caption: list[str], colors: Colors) -
 
 def color_map(scale: str, colors: Colors) -> LinearSegmentedColormap:
     """Return the colours of a scale from low to high."""
-    return LinearSegmentedColormap.from_list(scale, [colors[f"{scale}{i}"] for i in range(3)])
+    return LinearSegmentedColormap.from_list(scale, [colors[role] for role in SCALES[scale]])

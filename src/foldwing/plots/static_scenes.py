@@ -5,10 +5,11 @@ faster than three-dimensional axes and sorts the faces of all sheets together.
 """
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize, to_rgba
 from matplotlib.figure import Figure
@@ -23,11 +24,21 @@ from foldwing.plots.static_base import (
     write_head,
 )
 
-_AZIMUTH, _ELEVATION = np.radians(-38.0), np.radians(24.0)
 _MARGIN = 0.1
+_BAR = 0.62
+"""Height of a scale of colours with its label in inches."""
 
-Window = tuple[tuple[float, float], tuple[float, float]]
-"""Ranges across and up the paper."""
+Range = tuple[float, float]
+View = tuple[float, float]
+"""Azimuth and elevation from which a scene is seen, in degrees."""
+
+
+class Window(NamedTuple):
+    """The part of the paper that is shown, and whence it is seen."""
+
+    across: Range
+    up: Range
+    view: View
 
 
 def draw_scenes(picture: Picture, colors: Colors) -> Figure:
@@ -37,9 +48,10 @@ def draw_scenes(picture: Picture, colors: Colors) -> Figure:
     caption = wrapped(picture.caption)
     head = 0.42 + 0.19 * len(caption)
     width = (WIDTH - 2 * _MARGIN) / columns
-    window = _window([*(scene.items for scene in scenes), *picture.frames])
-    shape = (window[1][1] - window[1][0]) / (window[0][1] - window[0][0])
-    height = min(max(shape * width, 1.1), 4.5) + 0.3
+    window = _window([*(scene.items for scene in scenes), *picture.frames], picture.view)
+    shape = (window.up[1] - window.up[0]) / (window.across[1] - window.across[0])
+    bar = _BAR if any(scene.graded for scene in scenes) else 0.0
+    height = min(max(shape * width, 1.1), 4.5) + 0.3 + bar
     total = head + rows * height + 0.1
     figure = new_figure(WIDTH, total, colors)
     write_head(figure, picture.title, caption, colors)
@@ -47,36 +59,58 @@ def draw_scenes(picture: Picture, colors: Colors) -> Figure:
         row, column = divmod(number, columns)
         place = (
             (_MARGIN + column * width) / WIDTH,
-            (total - head - (row + 1) * height) / total,
+            (total - head - (row + 1) * height + bar) / total,
             width / WIDTH,
-            (height - 0.3) / total,
+            (height - 0.3 - bar) / total,
         )
         _draw(figure.add_axes(place), scene, window, colors)
+        _add_scale(figure, scene, place, colors)
     return figure
 
 
-def project(points: Array) -> tuple[Array, Array]:
+def _add_scale(
+    figure: Figure, scene: Scene, place: tuple[float, float, float, float], colors: Colors
+) -> None:
+    """Add the scale of colours below a scene."""
+    sheet = scene.graded
+    if sheet is None:
+        return
+    left, lower, width, _ = place
+    high = figure.get_figheight()
+    axes = figure.add_axes((left + 0.15 * width, lower - 0.16 / high, 0.7 * width, 0.1 / high))
+    shown = ScalarMappable(Normalize(*sheet.limits), color_map(sheet.scale, colors))
+    bar = figure.colorbar(shown, cax=axes, orientation="horizontal")
+    if scene.ticks:
+        bar.set_ticks(list(scene.ticks))
+    bar.set_label(scene.value_label, color=colors["ink"], size=9)
+    axes.tick_params(colors=colors["ink"], labelsize=8.5, length=3)
+    bar.outline.set_visible(False)
+
+
+def project(points: Array, view: View) -> tuple[Array, Array]:
     """Return the place on the paper, shape (..., 2), and the depth of points (x, y, z)."""
+    azimuth, elevation = np.radians(view)
     forward, side, up = points[..., 0], points[..., 1], points[..., 2]
-    c, s = np.cos(_AZIMUTH), np.sin(_AZIMUTH)
+    c, s = np.cos(azimuth), np.sin(azimuth)
     across, away = c * side - s * forward, -s * side - c * forward
-    tilt_c, tilt_s = np.cos(_ELEVATION), np.sin(_ELEVATION)
+    tilt_c, tilt_s = np.cos(elevation), np.sin(elevation)
     paper = np.stack([across, tilt_c * up + tilt_s * away], axis=-1)
     return paper, tilt_c * away - tilt_s * up
 
 
-def _window(views: Sequence[Sequence[Surface | Thread | Tag]]) -> Window:
-    """Return the part of the paper that all views need, those of a film too."""
-    parts = [project(points)[0].reshape(-1, 2) for view in views for points in _points(view)]
+def _window(scenes: Sequence[Sequence[Surface | Thread | Tag]], view: View) -> Window:
+    """Return the part of the paper that all scenes need, those of a film too."""
+    places = (project(points, view)[0] for items in scenes for points in _points(items))
+    parts = [place.reshape(-1, 2) for place in places]
     parts = [part[np.isfinite(part).all(axis=1)] for part in parts]
     flat = np.concatenate(parts)
     low, high = flat.min(axis=0), flat.max(axis=0)
     room = 0.06 * (high - low).max()
-    return (low[0] - room, high[0] + room), (low[1] - room, high[1] + room)
+    return Window((low[0] - room, high[0] + room), (low[1] - room, high[1] + room), view)
 
 
-def _points(view: Sequence[Surface | Thread | Tag]) -> Iterator[Array]:
-    for item in view:
+def _points(items: Sequence[Surface | Thread | Tag]) -> Iterator[Array]:
+    for item in items:
         if isinstance(item, Surface):
             yield np.stack([item.x, item.y, item.z], axis=-1)
         else:
@@ -86,23 +120,24 @@ def _points(view: Sequence[Surface | Thread | Tag]) -> Iterator[Array]:
 def _draw(axes: Axes, scene: Scene, window: Window, colors: Colors) -> None:
     axes.set_axis_off()
     axes.set_aspect("equal")
-    axes.set_xlim(window[0])
-    axes.set_ylim(window[1])
+    axes.set_xlim(window.across)
+    axes.set_ylim(window.up)
     axes.set_title(scene.title, color=colors["ink"], size=10, weight="bold", pad=4)
-    _draw_surfaces(axes, [item for item in scene.items if isinstance(item, Surface)], colors)
+    sheets = [item for item in scene.items if isinstance(item, Surface)]
+    _draw_surfaces(axes, sheets, window.view, colors)
     for item in scene.items:
         if isinstance(item, Thread):
-            _draw_thread(axes, item, colors)
+            _draw_thread(axes, item, window.view, colors)
         elif isinstance(item, Tag):
-            x, y = project(item.point)[0]
+            x, y = project(item.point, window.view)[0]
             axes.text(x, y, item.text, color=colors[item.color], size=8, ha="center", va="center")
 
 
-def _draw_surfaces(axes: Axes, surfaces: list[Surface], colors: Colors) -> None:
+def _draw_surfaces(axes: Axes, surfaces: list[Surface], view: View, colors: Colors) -> None:
     """Draw the faces of all sheets, the farthest first."""
     faces, depths, fills, edges = [], [], [], []
     for surface in surfaces:
-        paper, depth = project(np.stack([surface.x, surface.y, surface.z], axis=-1))
+        paper, depth = project(np.stack([surface.x, surface.y, surface.z], axis=-1), view)
         corners = _corners(paper).reshape(-1, 4, 2)
         faces.append(corners)
         depths.append(_corners(depth[..., None]).mean(axis=2).ravel())
@@ -130,14 +165,16 @@ def _fills(surface: Surface, colors: Colors) -> Array:
     count = (surface.x.shape[0] - 1) * (surface.x.shape[1] - 1)
     if surface.values is None:
         return np.tile(to_rgba(colors[surface.color], surface.opacity), (count, 1))
-    values = _corners(surface.values[..., None]).mean(axis=2).ravel()
-    fills: Array = color_map("diverging", colors)(Normalize(*surface.limits)(values))
+    values = surface.values.ravel()
+    if not surface.by_face:
+        values = _corners(surface.values[..., None]).mean(axis=2).ravel()
+    fills: Array = color_map(surface.scale, colors)(Normalize(*surface.limits)(values))
     fills[:, 3] = surface.opacity
     return fills
 
 
-def _draw_thread(axes: Axes, thread: Thread, colors: Colors) -> None:
-    paper = project(thread.points)[0]
+def _draw_thread(axes: Axes, thread: Thread, view: View, colors: Colors) -> None:
+    paper = project(thread.points, view)[0]
     style: dict[str, Any] = {"color": colors[thread.color], "alpha": thread.opacity}
     style["linewidth"] = thread.width
     if thread.arrow:

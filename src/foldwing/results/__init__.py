@@ -1,11 +1,14 @@
 """Results: one labelled dataset per run, written whole with its provenance.
 
 ===================  ==========================================================================
-`schema`             every variable: dimensions, unit, meaning; `build_dataset`
+`variables`          every variable: dimensions, unit, meaning
+`schema`             `build_dataset`, which checks what it is given against them
 `flutter_table`      the table of flutter points, as rows and as variables
 `provenance`         version, model, options and date, carried by every dataset
+`convergence_table`  error bars of a convergence study, by setting
 `summary`            the answer and the certificate in one line each
 `writing`            netCDF and CSV
+`steady_table`       tables of steady loads
 `folders`            result folders: whole or not at all, never over something else
 ===================  ==========================================================================
 """
@@ -13,11 +16,14 @@
 from foldwing.results.flutter_table import FlutterRow, flutter_rows, table_variables
 from foldwing.results.folders import check_writable, default_folder, free_name, result_folder
 from foldwing.results.provenance import Source, model_hash, package_version, provenance
-from foldwing.results.schema import VARIABLES, build_dataset, fold_angle_names
+from foldwing.results.schema import build_dataset, fold_angle_names
+from foldwing.results.steady_table import write_steady_csv
 from foldwing.results.summary import answer, certificate
+from foldwing.results.variables import VARIABLES
 from foldwing.results.writing import (
     DATASET_FILE,
     read_dataset,
+    write_convergence_csv,
     write_csv,
     write_dataset,
     write_frequencies_csv,
@@ -42,7 +48,9 @@ __all__ = [
     "read_dataset",
     "result_folder",
     "table_variables",
+    "write_convergence_csv",
     "write_csv",
     "write_dataset",
     "write_frequencies_csv",
+    "write_steady_csv",
 ]

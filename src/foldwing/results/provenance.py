@@ -58,7 +58,7 @@ def provenance(
     title : str
         Title of the model.
     kind : str
-        ``modes``, ``flutter`` or ``boundary``.
+        ``modes``, ``flutter``, ``boundary``, ``convergence`` or ``steady``.
     model_text : str
         The model file as it was read.
     method : str

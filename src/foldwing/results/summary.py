@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from foldwing.results.convergence_table import convergence_answer
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
 from foldwing.stability.status import Status
@@ -18,6 +19,10 @@ def answer(dataset: "xarray.Dataset") -> str:
     """Return the result in one line."""
     if dataset.attrs["kind"] == "modes":
         return _modes_answer(dataset)
+    if dataset.attrs["kind"] == "convergence":
+        return convergence_answer(dataset)
+    if dataset.attrs["kind"] == "steady":
+        return _steady_answer(dataset)
     if dataset.sizes.get("fold", 1) > 1:
         return _boundary_answer(dataset)
     return _flutter_answer(dataset)
@@ -26,7 +31,8 @@ def answer(dataset: "xarray.Dataset") -> str:
 def certificate(dataset: "xarray.Dataset") -> str:
     """Return which cases are certified, from which airspeed on, and which are not."""
     if "certified" not in dataset:
-        return ""
+        failed = failed_cases(dataset)
+        return f"Failed: {_case_list(dataset, failed)}." if failed else ""
     failed, doubtful = failed_cases(dataset), uncertified_cases(dataset)
     total = dataset.sizes["fold"]
     good = total - len(doubtful) - len(failed)
@@ -82,6 +88,28 @@ def _modes_answer(dataset: "xarray.Dataset") -> str:
     name = dataset["mode_name"].values[case, mode]
     where = _listed(f"mode {name}", fold_text(dataset, int(case)))
     return f"The lowest natural frequency is {frequencies[case, mode]:.3g} Hz ({where})."
+
+
+def _steady_answer(dataset: "xarray.Dataset") -> str:
+    lift, slope = dataset["lift"].values[:, 0], dataset["lift_slope"].values[:, 0]
+    known = np.flatnonzero(np.isfinite(lift))
+    if not known.size:
+        return "The computation failed."
+    attrs = dataset.attrs
+    where = f"At {degrees(attrs['alpha'])} and {attrs['airspeed']:g} m/s"
+    high, low = (int(known[pick(slope[known])]) for pick in (np.argmax, np.argmin))
+    if len(known) == 1:
+        drag = float(dataset["induced_drag"].values[high, 0])
+        forces = f"the lift is {lift[high]:.4g} N and the induced drag {drag:.3g} N"
+        text = f"{where} {forces}; the lift slope is {slope[high]:.4g} per radian"
+        return f"{text}{_in_brackets(fold_text(dataset, high))}."
+    ends = (f"{lift[i]:.4g} N{_in_brackets(fold_text(dataset, i))}" for i in (high, low))
+    slopes = f"the lift slope from {slope[high]:.4g} to {slope[low]:.4g} per radian"
+    return f"{where} the lift goes from {' to '.join(ends)}, {slopes}."
+
+
+def _in_brackets(text: str) -> str:
+    return f" ({text})" if text else ""
 
 
 def _flutter_answer(dataset: "xarray.Dataset") -> str:
@@ -206,7 +234,7 @@ def response(dataset: "xarray.Dataset") -> str:
 
 def warnings(dataset: "xarray.Dataset") -> str:
     """Return what makes results doubtful, case by case: modes not resolved, remarks."""
-    if "certified" not in dataset:
+    if "message" not in dataset and "certified" not in dataset:
         return ""
     parts = [_unresolved(dataset)]
     if "message" in dataset:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.results.flutter_table import flutter_rows
-from foldwing.results.schema import COORDINATES, VARIABLES, fold_angle_names
+from foldwing.results.schema import fold_angle_names
+from foldwing.results.variables import COORDINATES, VARIABLES
 
 if TYPE_CHECKING:
     import xarray
@@ -54,7 +55,7 @@ def write_csv(dataset: "xarray.Dataset", path: Path) -> None:
         (row.case, *row.fold, *(_field(row, column) for column in POINT_COLUMNS))
         for row in flutter_rows(dataset)
     )
-    _write_table(path, ("case", *angles, *POINT_COLUMNS), body)
+    write_table(path, ("case", *angles, *POINT_COLUMNS), body)
 
 
 def write_frequencies_csv(dataset: "xarray.Dataset", path: Path) -> None:
@@ -75,14 +76,43 @@ def write_frequencies_csv(dataset: "xarray.Dataset", path: Path) -> None:
         for case in range(dataset.sizes["fold"])
         for mode in range(dataset.sizes["mode"])
     )
-    _write_table(path, ("case", *angles, "mode", *columns), body)
+    write_table(path, ("case", *angles, "mode", *columns), body)
+
+
+def write_convergence_csv(dataset: "xarray.Dataset", folder: Path) -> None:
+    """Write a convergence study: ``convergence.csv`` with orders, ``levels.csv`` with speeds.
+
+    Both have one line for each setting (or level) and flutter point; ``point`` counts the lines of
+    the table of flutter points from 0.
+    """
+    points = range(dataset.sizes["flutter_point"])
+    columns = ("convergence", "order", "limit_speed", "error_speed")
+    orders = (
+        (name, point, *(dataset[column].values[index, point].item() for column in columns))
+        for index, name in enumerate(dataset["setting"].values.tolist())
+        for point in points
+    )
+    write_table(folder / "convergence.csv", ("setting", "point", *columns), orders)
+    fixed = ("setting", "value", "own")
+    varying = ("speed", "frequency", "likeness")
+    levels = (
+        (
+            *(dataset[f"level_{name}"].values[level].item() for name in fixed),
+            point,
+            *(dataset[f"level_{name}"].values[level, point].item() for name in varying),
+        )
+        for level in range(dataset.sizes["level"])
+        for point in points
+    )
+    write_table(folder / "levels.csv", (*fixed, "point", *varying), levels)
 
 
 def _field(row: Any, column: str) -> Any:
     return getattr(row, "classification" if column == "class" else column)
 
 
-def _write_table(path: Path, head: Iterable[str], body: Iterable[Iterable[Any]]) -> None:
+def write_table(path: Path, head: Iterable[str], body: Iterable[Iterable[Any]]) -> None:
+    """Write a CSV file: a line of names, then numbers in full precision, empty for nan."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(head)

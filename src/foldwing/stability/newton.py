@@ -64,8 +64,9 @@ class _Bordered(NamedTuple):
 
 
 def normalized(vectors: Complex) -> Complex:
-    """Return the vectors scaled to unit 2-norm along the last axis."""
-    return np.asarray(vectors / np.sqrt((np.abs(vectors) ** 2).sum(axis=-1, keepdims=True)))
+    """Return the vectors scaled to unit 2-norm along the last axis; nan where T was not defined."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(vectors / np.sqrt((np.abs(vectors) ** 2).sum(axis=-1, keepdims=True)))
 
 
 def null_vectors(matrices: Complex) -> tuple[Complex, Complex]:

@@ -8,6 +8,8 @@
 `flutter`    eigenvalues against airspeed and flutter points of one case
 `boundary`   flutter points against fold angle
 `trace`      the boundary as continuous curves
+`loads`      pressure, circulation and work of the air at flutter points
+`steady`     steady lift, drag and moments against fold angle
 `shapes`     points at which motions are drawn
 `measured`   measured points to lay over a picture
 `answers`    the same results as plain numbers, for JSON

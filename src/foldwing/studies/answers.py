@@ -6,13 +6,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from foldwing.aerodynamics.steady_loads import WingLoads
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
+from foldwing.results.steady_table import PER_SEGMENT, WHOLE
 from foldwing.results.summary import critical_row
 from foldwing.stability.status import Status
 from foldwing.structure.modes import StructuralModes
 from foldwing.studies.boundary import Boundary, Outcome
 from foldwing.studies.case import Case
+from foldwing.studies.convergence import ConvergenceStudy
+from foldwing.studies.steady import SteadyStudy
 
 if TYPE_CHECKING:
     import xarray
@@ -81,6 +85,80 @@ def boundary_answer(boundary: Boundary) -> Answer:
     if "turning" in attrs:
         answer["turning_folds"] = [float(angle) for angle in attrs["turning"].split(", ") if angle]
     return answer
+
+
+def convergence_answer(study: ConvergenceStudy) -> Answer:
+    """Return the flutter points of one case with their error bars, by setting, in m/s and Hz."""
+    dataset = study.dataset
+    answer = flutter_answer(study.case)
+    mesh = [dataset[f"mesh_{name}_speed"].values for name in ("limit", "error")]
+    points = [
+        {
+            **point,
+            "limit_speed": _number(mesh[0][index]),
+            "error_speed": _number(mesh[1][index]),
+            "settings": {
+                name: _convergence(dataset, row, index)
+                for row, name in enumerate(dataset["setting"].values.tolist())
+            },
+        }
+        for index, point in enumerate(answer["flutter_points"])
+    ]
+    answer |= {"flutter_points": points, "failures": list(study.failures)}
+    if study.interrupted:
+        answer["interrupted"] = dataset.attrs["interrupted"]
+    return answer
+
+
+def _convergence(dataset: "xarray.Dataset", row: int, point: int) -> Answer:
+    here = dataset["level_setting"].values == dataset["setting"].values[row]
+    columns = {name: dataset[f"level_{name}"].values[here] for name in ("value", "own")}
+    columns |= {
+        name: dataset[f"level_{name}"].values[here, point] for name in ("speed", "frequency")
+    }
+    return {
+        "convergence": str(dataset["convergence"].values[row, point]),
+        "order": _number(dataset["order"].values[row, point]),
+        "limit_speed": _number(dataset["limit_speed"].values[row, point]),
+        "error_speed": _number(dataset["error_speed"].values[row, point]),
+        "levels": [
+            {"value": float(value), "own": bool(own), "speed": _number(u), "frequency": _number(f)}
+            for value, own, u, f in zip(*columns.values(), strict=True)
+        ],
+    }
+
+
+def steady_answer(study: SteadyStudy) -> Answer:
+    """Return the steady loads of every case, in N, N m and per radian; a failed one says why."""
+    attrs = study.dataset.attrs
+    return {
+        "alpha": attrs["alpha"],
+        "speed": attrs["airspeed"],
+        "reference_area": attrs["reference_area"],
+        "cases": [
+            {
+                "fold": list(outcome.folds),
+                "status": outcome.status.meaning,
+                "loads": [
+                    {"gaps": gaps, **_loads(loads)}
+                    for gaps, loads in zip(study.gaps, outcome.loads, strict=False)
+                ],
+                **({"message": outcome.message} if outcome.message else {}),
+            }
+            for outcome in study.outcomes
+        ],
+    }
+
+
+def _loads(loads: WingLoads) -> Answer:
+    return {
+        **{name: _number(getattr(loads, name)) for name in (*WHOLE, "projected_area")},
+        "hinge_moments": [_number(moment) for moment in loads.hinge_moments],
+        "segments": [
+            {name: _number(getattr(segment, name)) for name in PER_SEGMENT}
+            for segment in loads.segments
+        ],
+    }
 
 
 def _case(outcome: Outcome) -> Answer:

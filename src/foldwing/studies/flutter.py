@@ -5,17 +5,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.aeroelastic.wing import AeroelasticWing
-from foldwing.maths.arrays import Complex, Real
+from foldwing.maths.arrays import Real
 from foldwing.results.flutter_table import table_variables
 from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.contours import determinant_map
 from foldwing.stability.loci import RootLoci, root_loci
 from foldwing.structure.following import FollowedModes
-from foldwing.structure.modes import StructuralModes
 from foldwing.studies.case import Case, solve_case, verdict_variables
+from foldwing.studies.loads import load_variables, unit_motions
 from foldwing.studies.modes import fold_coordinates, mode_variables, shape_variables
-from foldwing.studies.shapes import SurfaceGrid, surface_grid
+from foldwing.studies.shapes import surface_grid
 from foldwing.studies.speeds import picture_speeds, speed_range
 
 if TYPE_CHECKING:
@@ -64,15 +64,18 @@ def flutter_study(
     loci = root_loci(case.system, chosen, case.analysis.sweep).by_mode(case.modes.count)
     followed = [FollowedModes(case.modes, np.ones(case.modes.count))]
     grid = surface_grid(model.wing)
+    q, shapes = unit_motions(case.modes, case.motions(), grid)
+    loads, load_coords = load_variables(model, case, q)
     variables = (
         padded(mode_variables(followed) | shape_variables(followed, grid), len(loci.mode))
         | loci_variables(loci, case.modes.names)
         | table_variables(case.rows(0))
-        | flutter_shapes(case.modes, case.motions(), grid)
+        | {"flutter_shape": (("flutter_point", "point", "axis"), shapes)}
+        | loads
         | verdict_variables([case])
         | {"message": (("fold",), np.array([case.warning], np.str_))}
     )
-    coords = fold_coordinates([folds]) | grid.coordinates()
+    coords = fold_coordinates([folds]) | grid.coordinates() | load_coords
     coords["speed"] = (("speed",), chosen)
     coords["mode"] = (("mode",), np.arange(1, len(loci.mode) + 1))
     coords["flutter_point"] = (("flutter_point",), np.arange(len(case.analysis.points)))
@@ -136,16 +139,6 @@ def _branch_names(loci: RootLoci, modes: tuple[str, ...]) -> list[str]:
         counts[letter] += 1
         names.append(f"{letter}{counts[letter]}")
     return names
-
-
-def flutter_shapes(modes: StructuralModes, motions: Complex, grid: SurfaceGrid) -> Variables:
-    """Return the motion at each flutter point: largest displacement 1 m, its phase zero."""
-    shapes = np.einsum("pan,fn->fpa", grid.displacement(modes), motions)
-    if len(shapes):
-        flat = shapes.reshape(len(shapes), -1)
-        largest = flat[np.arange(len(flat)), np.abs(flat).argmax(axis=1)]
-        shapes = shapes / largest[:, None, None]
-    return {"flutter_shape": (("flutter_point", "point", "axis"), shapes)}
 
 
 def search_attributes(model: AeroelasticWing, speeds: tuple[float, float]) -> Variables:

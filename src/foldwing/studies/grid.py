@@ -13,19 +13,23 @@ from foldwing.model import Wing
 LEVEL = "level"
 """Fold that keeps a segment parallel to segment 1."""
 
-_FOLD_REMEDY = "Give an angle in degrees, start:stop:step such as 0:150:2.5, or level."
+_FOLD_REMEDY = (
+    "Give an angle in degrees, start:stop:step such as 0:150:2.5, a list such as 0,60,90, or level."
+)
 
 MOST_VALUES = 100_000
 """Values of a range or cases of a grid above which a typing error is more likely than a wish."""
 
 
 def parse_range(text: str, field: str, remedy: str = "") -> tuple[float, ...]:
-    """Return the values of ``"start:stop:step"``, stop included, or of a single number.
+    """Return the values of a number, of ``"start:stop:step"``, or of a list of both.
+
+    The stop is included, the order of a list is kept, and a value given twice counts once.
 
     Parameters
     ----------
     text : str
-        As the user wrote it.
+        As the user wrote it, for example ``"0:150:2.5"`` or ``"0,60,90,120"``.
     field : str
         Where it stands, for messages.
     remedy : str, optional
@@ -36,12 +40,18 @@ def parse_range(text: str, field: str, remedy: str = "") -> tuple[float, ...]:
     InputError
         When the text is empty, not a number, not finite, reversed, or has a step of zero.
     """
-    parts = text.split(":")
-    remedy = remedy or "Give one number, or start:stop:step such as 0:150:2.5."
-    if len(parts) not in (1, 3):
-        raise InputError(field, text, "must be a number or start:stop:step", remedy)
+    remedy = remedy or "Give one number, start:stop:step such as 0:150:2.5, or a list 0,60,90."
+    values = (value for part in text.split(",") for value in _part(part, field, text, remedy))
+    return tuple(dict.fromkeys(values))
+
+
+def _part(part: str, field: str, text: str, remedy: str) -> tuple[float, ...]:
+    """Return the values of one part of a list: a number or a range."""
+    words = part.split(":")
+    if len(words) not in (1, 3):
+        raise InputError(field, text, "must be a number, start:stop:step or a list", remedy)
     try:
-        numbers = [float(part) for part in parts]
+        numbers = [float(word) for word in words]
     except ValueError:
         raise InputError(field, text, "must be made of numbers", remedy) from None
     if not all(math.isfinite(number) for number in numbers):
@@ -103,7 +113,7 @@ def fold_cases(
     fold : str, optional
         ``"30,-75"``: angles of all hinges instead of the wing's own.
     by_hinge : mapping of int to str, optional
-        For hinge I (from 2): a number, a range or ``level``.
+        For hinge I (from 2): a number, a range, a list or ``level``.
     """
     base = [math.degrees(angle) for angle in wing.fold_angles]
     angles = list(parse_folds(fold, wing)) if fold is not None else [round(a, 10) for a in base]
@@ -150,11 +160,11 @@ def parse_speeds(text: str) -> Real:
     Raises
     ------
     InputError
-        When a speed is negative, the range descends, or it has no speed above zero.
+        When a speed is negative, they do not ascend, or none is above zero.
     """
     remedy = "Write start:stop:step in m/s from 0 upwards, such as 0:60:1."
     speeds = parse_range(text, "--speeds", remedy)
-    if len(speeds) > 1 and speeds[1] < speeds[0]:
+    if list(speeds) != sorted(speeds):
         raise InputError("--speeds", text, "must ascend", remedy)
     if speeds[0] < 0.0 or speeds[-1] <= 0.0:
         raise InputError("--speeds", text, "must not be negative or only 0 m/s", remedy)

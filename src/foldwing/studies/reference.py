@@ -31,8 +31,9 @@ from foldwing.stability.loci import RootLoci
 from foldwing.stability.status import FlutterPoint, Status
 from foldwing.structure.following import FollowedModes
 from foldwing.studies.case import solve_case
-from foldwing.studies.flutter import flutter_shapes, loci_variables, padded, search_attributes
+from foldwing.studies.flutter import loci_variables, padded, search_attributes
 from foldwing.studies.grid import radians
+from foldwing.studies.loads import unit_motions
 from foldwing.studies.modes import fold_coordinates, mode_variables, shape_variables
 from foldwing.studies.response import tip_response
 from foldwing.studies.shapes import surface_grid
@@ -196,6 +197,7 @@ def _case_variables(
     loci, grid = _loci(found, speeds), surface_grid(wing)
     followed = [FollowedModes(modes, np.ones(modes.count))]
     motions = np.array([point.vector for point in points], complex).reshape(-1, modes.count)
+    shapes = unit_motions(modes, motions, grid)[1]
     limit = wing.analysis.damping_threshold
     variables = (
         padded(
@@ -203,7 +205,7 @@ def _case_variables(
         )
         | loci_variables(loci, modes.names)
         | table_variables([_row(point, folds, modes.names, limit) for point in points])
-        | flutter_shapes(modes, motions, grid)
+        | {"flutter_shape": (("flutter_point", "point", "axis"), shapes)}
     )
     coords = fold_coordinates([folds]) | grid.coordinates()
     coords["speed"] = (("speed",), speeds)
