@@ -256,12 +256,18 @@ def _unresolved(dataset: "xarray.Dataset") -> str:
     if not named:
         return ""
     modes = ", ".join(dict.fromkeys(name for names in named for name in names))
-    below = np.nanmax(dataset["valid_from"].values, initial=0.0)
-    where = f"Below {below:.3g} m/s" if below > 0.0 else "At these airspeeds"
     return (
-        f"{where} the lattice does not resolve the modes {modes}: their flutter points there "
+        f"{_where_unresolved(dataset)} the lattice does not resolve the modes {modes}: their flutter points there "
         "would not be found. More panels along the chord lower the limit."
     )
+
+
+def _where_unresolved(dataset: "xarray.Dataset") -> str:
+    """Return below which airspeed: the one that a certificate has just named, if there is one."""
+    if dataset["certified"].any():
+        return "Below that"
+    lowest = np.nanmax(dataset["valid_from"].values, initial=0.0)
+    return f"Below {lowest:.3g} m/s" if lowest > 0.0 else "At these airspeeds"
 
 
 def _case_list(dataset: "xarray.Dataset", cases: Sequence[int], most: int = 12) -> str:
