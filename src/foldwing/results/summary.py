@@ -257,8 +257,9 @@ def _unresolved(dataset: "xarray.Dataset") -> str:
         return ""
     modes = ", ".join(dict.fromkeys(name for names in named for name in names))
     return (
-        f"{_where_unresolved(dataset)} the lattice does not resolve the modes {modes}: their flutter points there "
-        "would not be found. More panels along the chord lower the limit."
+        f"{_where_unresolved(dataset)} the lattice does not resolve the modes {modes}: "
+        "their flutter points there would not be found. "
+        "More panels along the chord lower the limit."
     )
 
 
