@@ -48,3 +48,11 @@ def test_branches_stand_beside_their_modes(cli, model, empty_folder):
 def test_pictures_are_drawn(cli, model, empty_folder):
     assert cli("flutter", model, "--out", "result").status == 0
     assert (empty_folder / "result" / "report.html").stat().st_size > 1e6
+
+
+def test_reference_leaves_the_free_motion_out(cli, model):
+    """A flap at any angle is in equilibrium: an exact zero root, neither growing nor decaying."""
+    lattice = ("--aero", "lattice", "--panels", "2x6", "--speeds", "2:40:4", "--json")
+    answer = cli("flutter", model, *lattice, "--method", "reference").json
+    assert answer["unstable_from_start"] == 0
+    assert {point["kind"] for point in answer["flutter_points"]} == {"flutter"}

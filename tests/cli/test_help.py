@@ -18,7 +18,7 @@ OPTIONS = {
     "examples": {"--copy"},
     "schema": set(),
     "modes": OF_A_MODEL | {"--measured"},
-    "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds"},
+    "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds", "--method", "--time-step"},
     "steady": (OF_A_MODEL - {"--basis"}) | {"--alpha", "--speed", "--panels", "--gap", "--image"},
     "boundary": OF_A_MODEL | OF_A_SEARCH | {"--measured", "--trace", "--jobs"},
     "convergence": OF_A_MODEL | OF_A_SEARCH | {"--vary", "--levels", "--jobs"},

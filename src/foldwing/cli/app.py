@@ -89,6 +89,8 @@ def flutter(
     basis: options.Basis = None,
     damping: options.Damping = None,
     damping_threshold: options.Threshold = None,
+    method: options.Method = "sweep",
+    time_step: options.TimeStep = None,
     plot: options.Plot = True,
     out: options.Out = None,
     force: options.Force = False,
@@ -110,6 +112,8 @@ def flutter(
         damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
         max_speed=options.number("--max-speed", max_speed, "60"),
         speeds=speeds,
+        method=method,
+        time_step=options.number("--time-step", time_step, "0.0003"),
     )
     run_flutter(request, Output(plot, out, force, json))
 

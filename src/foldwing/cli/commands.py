@@ -54,6 +54,8 @@ class Request:
     jobs: int = 1
     vary: str | None = None
     levels: list[str] | None = None
+    method: str = "sweep"
+    time_step: float | None = None
 
     @property
     def options(self) -> dict[str, Any]:
@@ -229,6 +231,7 @@ def run_flutter(request: Request, output: Output) -> None:
     wing = request.wing(text)
     folds = request.one_case(wing)
 
+    from foldwing.cli import reference
     from foldwing.results import Source
     from foldwing.studies.answers import flutter_answer
     from foldwing.studies.flutter import flutter_study
@@ -237,17 +240,20 @@ def run_flutter(request: Request, output: Output) -> None:
 
     speeds = None if request.speeds is None else parse_speeds(request.speeds)
     check_highest(request.max_speed)
+    reference.check_method(request, wing, text)
     folder = output.folder("flutter", request.model)
+    source, highest = Source(text, request.options), request.max_speed
     with computing():
-        dataset, case = flutter_study(
-            request.model_of(wing),
-            folds,
-            speeds=speeds,
-            highest=request.max_speed,
-            source=Source(text, request.options),
-        )
+        if request.method == "reference":
+            dataset, answer = reference.solve(request, wing, folds, speeds, source)
+        else:
+            model = request.model_of(wing)
+            dataset, case = flutter_study(
+                model, folds, speeds=speeds, highest=highest, source=source
+            )
+            answer = flutter_answer(case)
     if output.json:
-        print_json(flutter_answer(case))
+        print_json(answer)
     else:
         with shown():
             tables.show_flutter(dataset)

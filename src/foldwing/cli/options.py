@@ -141,6 +141,23 @@ Levels = Annotated[
     ),
 ]
 Jobs = Annotated[str, typer.Option("--jobs", metavar="N", help="Processes to run in parallel.")]
+Method = Annotated[
+    Literal["sweep", "reference"],
+    typer.Option(
+        "--method",
+        metavar="NAME",
+        help="sweep (all points, certified), or reference: for checking, the lattice as one large "
+        "eigenproblem marching in time; slow, not certified.",
+    ),
+]
+TimeStep = Annotated[
+    str | None,
+    typer.Option(
+        "--time-step",
+        metavar="SECONDS",
+        help="Reference: the same step at every airspeed, to which the panels are fitted.",
+    ),
+]
 Plot = Annotated[bool, typer.Option("--plot/--no-plot", help="Draw pictures and a report.")]
 Out = Annotated[
     Path | None,

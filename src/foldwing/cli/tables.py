@@ -85,9 +85,9 @@ def show_flutter(dataset: "xarray.Dataset") -> None:
 
 def _conclude(console: Console, dataset: "xarray.Dataset") -> None:
     """Print what is certified and what is doubtful."""
-    from foldwing.results.summary import certificate, warnings
+    from foldwing.results.summary import certificate, response, warnings
 
-    for text in filter(None, (certificate(dataset), warnings(dataset))):
+    for text in filter(None, (response(dataset), certificate(dataset), warnings(dataset))):
         console.print(plain(text))
 
 

@@ -11,6 +11,7 @@ from foldwing.plots.frequencies import natural_frequencies
 from foldwing.plots.loads import flutter_circulation, pressure, pressure_of_modes
 from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.picture import Picture
+from foldwing.plots.response import response
 from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
 from foldwing.plots.steady import circulation, circulation_across, circulation_in_space
 
@@ -35,6 +36,7 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     circulation,
     circulation_across,
     circulation_in_space,
+    response,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 

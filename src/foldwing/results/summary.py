@@ -221,6 +221,17 @@ def _validity(dataset: "xarray.Dataset") -> str:
     return f", from {lowest.max():.3g} m/s on" if lowest.size else ""
 
 
+def response(dataset: "xarray.Dataset") -> str:
+    """Return what was identified in the response in time, beside the eigenvalue; or nothing."""
+    if "response" not in dataset:
+        return ""
+    attrs = dataset["response"].attrs
+    found = f"{attrs['frequency']:.5g} Hz and growth {round(attrs['growth'], 4) + 0.0:g} 1/s"
+    hertz, growth = attrs["eigenvalue_frequency"], round(attrs["eigenvalue_growth"], 4) + 0.0
+    value = f"{hertz:.5g} Hz and {growth:g} 1/s"
+    return f"After a tap at {attrs['speed']:.4g} m/s: {found}; the eigenvalue says {value}."
+
+
 def warnings(dataset: "xarray.Dataset") -> str:
     """Return what makes results doubtful, case by case: modes not resolved, remarks."""
     if "message" not in dataset and "certified" not in dataset:
@@ -246,9 +257,18 @@ def _unresolved(dataset: "xarray.Dataset") -> str:
         return ""
     modes = ", ".join(dict.fromkeys(name for names in named for name in names))
     return (
-        f"Below that the lattice does not resolve the modes {modes}: their flutter points there "
-        "would not be found. More panels along the chord lower the limit."
+        f"{_where_unresolved(dataset)} the lattice does not resolve the modes {modes}: "
+        "their flutter points there would not be found. "
+        "More panels along the chord lower the limit."
     )
+
+
+def _where_unresolved(dataset: "xarray.Dataset") -> str:
+    """Return below which airspeed: the one that a certificate has just named, if there is one."""
+    if dataset["certified"].any():
+        return "Below that"
+    lowest = np.nanmax(dataset["valid_from"].values, initial=0.0)
+    return f"Below {lowest:.3g} m/s" if lowest > 0.0 else "At these airspeeds"
 
 
 def _case_list(dataset: "xarray.Dataset", cases: Sequence[int], most: int = 12) -> str:

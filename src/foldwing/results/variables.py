@@ -40,6 +40,7 @@ _LEVEL: Dims = ("level",)
 _AT_LEVEL: Dims = ("level", "flutter_point")
 _CONVERGENCE: Dims = ("setting", "flutter_point")
 _STRIP: Dims = ("strip",)
+_TIME: Dims = ("time", "mode")
 _STEADY_CASE: Dims = ("fold", "gap")
 _SEGMENT: Dims = (*_STEADY_CASE, "wing_segment")
 
@@ -89,6 +90,7 @@ _COORDINATES = (
     variable("strip_chord", _STRIP, "m", "chord of the strip"),
     variable("row", ("row",), "1", "panel along the chord, 1 at the leading edge", "integer"),
     variable("edge", ("edge",), "", "edge of a strip: inner or outer", "text"),
+    variable("time", ("time",), "s", "time after the disturbance"),
 )
 
 _MODES = (
@@ -160,6 +162,8 @@ _EXTRAS = (
     variable("measured_fold", _MEASURED, "degree", "measured: fold angle"),
     variable("measured_speed", _MEASURED, "m/s", "measured: airspeed of flutter"),
     variable("measured_frequency", _MEASURED, "Hz", "measured: frequency"),
+    variable("response", _TIME, "1", "modal displacement over the largest of all modes"),
+    variable("response_envelope", _TIME, "1", "amplitude of the identified motion"),
 )
 
 _PAIRS: Dims = (*_TABLE, "moving_mode", "driving_mode")

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.aerodynamics.steady_loads import WingLoads
-from foldwing.results.flutter_table import FlutterRow
+from foldwing.results.flutter_table import FlutterRow, flutter_rows
+from foldwing.results.schema import fold_angle_names
 from foldwing.results.steady_table import PER_SEGMENT, WHOLE
+from foldwing.results.summary import critical_row
 from foldwing.stability.status import Status
 from foldwing.structure.modes import StructuralModes
 from foldwing.studies.boundary import Boundary, Outcome
@@ -46,6 +48,28 @@ def flutter_answer(case: Case) -> Answer:
         "uncertified_modes": list(case.uncertified_modes),
         "status": case.status.meaning,
         **({"warning": case.warning} if case.warning else {}),
+    }
+
+
+def reference_answer(dataset: "xarray.Dataset") -> Answer:
+    """Return the flutter points of the reference, and what its response in time tells."""
+    rows = flutter_rows(dataset)
+    critical = critical_row(rows)
+    response = dataset["response"].attrs
+    keys = ("speed", "frequency", "damping_ratio", "growth", "misfit")
+    return {
+        "fold": [float(dataset[name][0]) for name in fold_angle_names(dataset)],
+        "flutter_points": [_point(row) for row in rows],
+        "critical": None if critical is None else _point(critical),
+        "certified": False,
+        "valid_from": _number(float(dataset["valid_from"][0])),
+        "unstable_from_start": int(dataset["unstable_from_start"][0]),
+        "uncertified_modes": [
+            name for name in str(dataset["uncertified_modes"][0].item()).split(", ") if name
+        ],
+        "status": Status.UNCERTIFIED.meaning,
+        "warning": str(dataset["message"][0].item()),
+        "response": {key: _number(response[key]) for key in keys},
     }
 
 

@@ -64,11 +64,11 @@ def flutter_study(
     loci = root_loci(case.system, chosen, case.analysis.sweep).by_mode(case.modes.count)
     followed = [FollowedModes(case.modes, np.ones(case.modes.count))]
     grid = surface_grid(model.wing)
-    q, shapes = unit_motions(case, grid)
+    q, shapes = unit_motions(case.modes, case.motions(), grid)
     loads, load_coords = load_variables(model, case, q)
     variables = (
-        _padded(mode_variables(followed) | shape_variables(followed, grid), len(loci.mode))
-        | _loci_variables(loci, case)
+        padded(mode_variables(followed) | shape_variables(followed, grid), len(loci.mode))
+        | loci_variables(loci, case.modes.names)
         | table_variables(case.rows(0))
         | {"flutter_shape": (("flutter_point", "point", "axis"), shapes)}
         | loads
@@ -91,26 +91,27 @@ def flutter_study(
     return build_dataset(variables | contours, coords | contour_coords, attrs), case
 
 
-def _padded(variables: Variables, width: int) -> Variables:
+def padded(variables: Variables, width: int) -> Variables:
     """Widen variables on ``mode`` for branches of real roots, which have no natural mode."""
     result = {}
-    for name, (dims, values) in variables.items():
+    for name, (dims, values, *further) in variables.items():
         if "mode" in dims:
             axis = dims.index("mode")
             missing = [(0, 0)] * values.ndim
             missing[axis] = (0, width - values.shape[axis])
             empty = "" if values.dtype.kind == "U" else np.nan
             values = np.pad(values, missing, constant_values=empty)
-        result[name] = (dims, values)
+        result[name] = (dims, values, *further)
     return result
 
 
-def _loci_variables(loci: RootLoci, case: Case) -> Variables:
+def loci_variables(loci: RootLoci, modes: tuple[str, ...]) -> Variables:
+    """Return the eigenvalues against airspeed, and what follows from them, as variables."""
     dims = ("fold", "speed", "mode")
     values = loci.eigenvalue
     with np.errstate(divide="ignore", invalid="ignore"):
         damping = np.where(values.imag == 0.0, np.nan, -values.real / np.abs(values.imag))
-    names = _branch_names(loci, case.modes.names)
+    names = _branch_names(loci, modes)
     frequency = np.where(np.isnan(values.real), np.nan, np.abs(values.imag) / (2.0 * np.pi))
     return {
         "eigenvalue": (dims, values[None]),

@@ -7,6 +7,7 @@ import numpy as np
 from foldwing.aeroelastic.loads import Loads, Motions, loads_of, panel_grid
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.maths.arrays import Complex
+from foldwing.structure.modes import StructuralModes
 from foldwing.studies.case import Case
 from foldwing.studies.shapes import SurfaceGrid
 
@@ -19,8 +20,8 @@ LEADING_MODES, LEADING_SHARE = 3, 0.01
 """Most modes whose pressure is kept, and the share in the kinetic energy that they need."""
 
 
-def unit_motions(case: Case, grid: SurfaceGrid) -> tuple[Complex, Complex]:
-    """Return the motion at each flutter point, its largest displacement 1 m with phase zero.
+def unit_motions(modes: StructuralModes, q: Complex, grid: SurfaceGrid) -> tuple[Complex, Complex]:
+    """Return motions ``q`` (points, n) scaled to a largest displacement of 1 m with phase zero.
 
     Returns
     -------
@@ -29,8 +30,7 @@ def unit_motions(case: Case, grid: SurfaceGrid) -> tuple[Complex, Complex]:
     shapes : array, shape (points, m, 3)
         Displacement of the points of the grid.
     """
-    q = case.motions()
-    shapes = np.einsum("pan,fn->fpa", grid.displacement(case.modes), q)
+    shapes = np.einsum("pan,fn->fpa", grid.displacement(modes), q)
     if len(shapes):
         flat = shapes.reshape(len(shapes), -1)
         largest = flat[np.arange(len(flat)), np.abs(flat).argmax(axis=1)]

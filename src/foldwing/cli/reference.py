@@ -1,0 +1,68 @@
+"""What ``flutter --method reference`` does: check, compute, answer."""
+
+import tomllib
+from typing import TYPE_CHECKING, Any
+
+from foldwing.cli import tables
+from foldwing.errors import InputError
+from foldwing.maths.arrays import Real
+from foldwing.model import Wing
+
+if TYPE_CHECKING:
+    import xarray
+
+    from foldwing.aeroelastic.wing import AeroelasticWing
+    from foldwing.cli.commands import Request
+    from foldwing.results import Source
+
+
+def check_method(request: "Request", wing: Wing, text: str) -> None:
+    """Refuse combinations of options and models that the method cannot serve."""
+    if request.method != "reference":
+        if request.time_step is not None:
+            limit = "only the reference marches in time"
+            remedy = "Add --aero lattice --method reference."
+            raise InputError("--time-step", request.time_step, limit, remedy)
+        return
+    if request.aero != "lattice":
+        limit = f"the reference is that of the vortex lattice, not of {request.aero} aerodynamics"
+        raise InputError("--method", "reference", limit, "Add --aero lattice.")
+    if tomllib.loads(text).get("lattice", {}).get("scheme") == "exact":
+        limit = "the reference marches in time and needs a scheme of discrete time"
+        remedy = 'Leave it out of the model, or take scheme = "average".'
+        raise InputError("lattice.scheme", "exact", limit, remedy)
+    reference_of(request, wing)
+
+
+def reference_of(request: "Request", wing: Wing) -> "AeroelasticWing":
+    """Return the wing with a lattice that marches in time."""
+    from foldwing.aeroelastic.reference import check_time_step
+    from foldwing.studies.reference import reference_model
+
+    check_time_step(request.time_step)
+    return reference_model(wing, tuple(request.drop_mode or ()))
+
+
+def solve(
+    request: "Request",
+    wing: Wing,
+    folds: tuple[float, ...],
+    speeds: Real | None,
+    source: "Source",
+) -> tuple["xarray.Dataset", dict[str, Any]]:
+    """Return the dataset and the answer of one case by the reference."""
+    from foldwing.studies.answers import reference_answer
+    from foldwing.studies.reference import SPEEDS, reference_study
+
+    total = SPEEDS if speeds is None else int((speeds > 0.0).sum())
+    with tables.progress("Airspeeds", total) as advance:
+        dataset = reference_study(
+            reference_of(request, wing),
+            folds,
+            speeds=speeds,
+            highest=request.max_speed,
+            time_step=request.time_step,
+            source=source,
+            progress=advance,
+        )
+    return dataset, reference_answer(dataset)
