@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from foldwing.aerodynamics.lattice import closeness, mesh_segments, strips_by_segment
+from foldwing.aerodynamics.lattice import Strips, closeness, mesh_segments, strips_by_segment
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
 from foldwing.model import Hinge, Segment, Wing, parse_model, read_model
@@ -168,6 +168,40 @@ def test_segments_almost_folded_onto_each_other_are_doubtful():
     for folds in ((0.0, 0.0), (120.0, -120.0), (160.0, 0.0)):
         model, modes, _ = lattice(THREE, *folds)
         assert model.warning(modes) == ""
+
+
+def test_wing_that_reaches_through_the_wall_is_refused():
+    wing = THREE.with_lattice(image=True)
+    model, modes, _ = lattice(wing, 170.0, 0.0)
+    with pytest.raises(InputError, match="must stay on its side of the wall"):
+        model.warning(modes)
+    model, modes, _ = lattice(wing, 120.0, -60.0)
+    assert model.warning(modes) == ""
+
+
+def test_lift_slope_of_the_model_is_said_to_be_unused():
+    segment = THREE.segments[0].model_copy(update={"lift_slope": 5.0})
+    wing = THREE.model_copy(update={"segments": (segment, *THREE.segments[1:])})
+    model, modes, _ = lattice(wing, 0.0, 0.0)
+    assert model.warning(modes) == "The lattice does not use the model's lift_slope."
+
+
+@pytest.mark.parametrize(("edge", "chord", "words"), [(0.0, 0.1, "width"), (0.2, 0.0, "chord")])
+def test_panels_without_size_are_refused(edge, chord, words):
+    inner, outer = np.array([[0.0, 0.0]]), np.array([[edge, 0.0]])
+    with pytest.raises(InputError, match=f"the {words} of strip 1 must be greater than 0 m"):
+        Strips(inner, outer, np.zeros(1), np.array([chord]), np.array([0]))
+
+
+@pytest.mark.parametrize("refinement", [0, 1, 3])
+def test_inset_lattice_ends_a_quarter_of_the_refined_strip_before_a_gap(refinement):
+    wing = THREE.with_gaps("2 mm").with_lattice(
+        spanwise=[4, 4, 4], spacing="inset", gap_refinement=refinement
+    )
+    middle = mesh_segments(wing)[1].edges
+    last = middle[-1] - middle[-2]
+    assert 0.099 - middle[-1] == pytest.approx(last / 4)
+    assert middle[0] - 0.001 == pytest.approx(last / 4)
 
 
 def test_strip_theory_may_be_folded_flat():

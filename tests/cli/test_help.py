@@ -12,14 +12,15 @@ import pytest
 import foldwing
 
 OF_A_MODEL = {"--fold", "--fold-of", "--basis", "--plot", "--no-plot", "--out", "--force", "--json"}
-OF_AN_AIRSTREAM = {"--aero", "--panels", "--gap", "--drop-mode"}
+OF_AN_AIRSTREAM = {"--aero", "--panels", "--spacing", "--gap", "--drop-mode"}
 OF_A_SEARCH = OF_AN_AIRSTREAM | {"--max-speed", "--damping", "--damping-threshold"}
 OPTIONS = {
     "examples": {"--copy"},
     "schema": set(),
     "modes": OF_A_MODEL | {"--measured"},
     "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds", "--method", "--time-step"},
-    "steady": (OF_A_MODEL - {"--basis"}) | {"--alpha", "--speed", "--panels", "--gap", "--image"},
+    "steady": (OF_A_MODEL - {"--basis"})
+    | {"--alpha", "--speed", "--panels", "--spacing", "--gap", "--image"},
     "boundary": OF_A_MODEL | OF_A_SEARCH | {"--measured", "--trace", "--jobs"},
     "convergence": OF_A_MODEL | OF_A_SEARCH | {"--vary", "--levels", "--jobs"},
 }

@@ -32,6 +32,17 @@ def test_table_says_what_is_not_resolved(cli):
     assert "More panels along the chord lower the limit." in out
 
 
+def test_search_that_ends_before_all_modes_are_resolved(cli):
+    out = " ".join(cli("flutter", "three-segment", *FOLD, *QUICK[:-2], 25, "--no-plot").out.split())
+    assert "among the modes resolved (all of them only from 31" in out
+
+
+def test_spacing_changes_the_answer(cli):
+    uniform, inset = (flutter(cli, "--spacing", name) for name in ("uniform", "inset"))
+    assert uniform["critical"] == flutter(cli)["critical"]
+    assert 0.001 < abs(inset["critical"]["speed"] / uniform["critical"]["speed"] - 1) < 0.1
+
+
 def test_strip_theory_says_nothing_of_the_kind(cli):
     out = cli("flutter", "three-segment", *FOLD, "--no-plot").out
     assert "lattice" not in out

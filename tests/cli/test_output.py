@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from foldwing.cli.commands import Request
+from foldwing.cli.request import Request
 from foldwing.model import example_text
 from foldwing.results import read_dataset
 

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from foldwing.aerodynamics.horseshoe import Edges
+from foldwing.errors import InputError
 from foldwing.maths.arrays import Indices, Real
 from foldwing.model import Wing
 
@@ -37,6 +38,11 @@ class Strips:
     chord : array, shape (s,)
     segment : array of int, shape (s,)
         Segment that each strip belongs to, from 0.
+
+    Raises
+    ------
+    InputError
+        When a strip has no width or no chord.
     """
 
     inner: Real
@@ -44,6 +50,15 @@ class Strips:
     leading: Real
     chord: Real
     segment: Indices
+
+    def __post_init__(self) -> None:
+        """Refuse panels without width or length."""
+        for name, size in (("width", self.width), ("chord", self.chord)):
+            if not np.all(size > 0.0):
+                bad = int(np.argmin(size > 0.0))
+                limit = f"the {name} of strip {bad + 1} must be greater than 0 m"
+                remedy = "Move its edges apart, or leave it out."
+                raise InputError("strips", float(size[bad]), limit, remedy)
 
     @property
     def count(self) -> int:

@@ -22,10 +22,12 @@ from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
 from foldwing.maths.quadrature import gauss_rule
-from foldwing.model import Wing
+from foldwing.model import Segment, Wing
 from foldwing.structure.assembly import Assembly, assemble
 from foldwing.structure.component import ComponentModes
 from foldwing.structure.modes import StructuralModes, natural_modes
+
+DEFAULT_LIFT_SLOPE = float(Segment.model_fields["lift_slope"].default)
 
 TOUCHING, CLOSE = 1e-3, 0.1
 """Distance of segments, in widths of a strip, below which a lattice is refused or doubtful."""
@@ -127,11 +129,15 @@ class AeroelasticWing:
         Raises
         ------
         InputError
-            When segments of a vortex lattice lie on each other.
+            When segments of a vortex lattice lie on each other, or reach through the wall.
         """
         if self.aerodynamics != "lattice":
             return ""
-        return closeness_warning(self.strips(modes), modes.fold_angles)
+        image = self.wing.lattice.image
+        doubts = strips_warning(self.strips(modes), modes.fold_angles, image)
+        slopes = {segment.lift_slope for segment in self.wing.segments} - {DEFAULT_LIFT_SLOPE}
+        unused = "The lattice does not use the model's lift_slope." if slopes else ""
+        return " ".join(filter(None, (doubts, unused)))
 
     def influence(self, modes: StructuralModes) -> Influence:
         """Return the influence of the vortices of the folded wing and its wake."""
@@ -186,7 +192,11 @@ class AeroelasticWing:
         return AeroelasticSystem(modes.omega, self.aerodynamic_model(modes), modes.damping)
 
 
-def closeness_warning(strips: Strips, fold_angles: Sequence[float]) -> str:
+def _in_degrees(fold_angles: Sequence[float]) -> str:
+    return ", ".join(f"{math.degrees(angle):g}" for angle in fold_angles)
+
+
+def strips_warning(strips: Strips, fold_angles: Sequence[float], image: bool) -> str:
     """Return in words that segments come too close for a lattice, empty when they do not.
 
     Parameters
@@ -194,19 +204,24 @@ def closeness_warning(strips: Strips, fold_angles: Sequence[float]) -> str:
     strips : Strips
     fold_angles : sequence of float
         psi_2 .. psi_N in radians, for the message.
+    image : bool
+        Whether there is a wall at y = 0.
 
     Raises
     ------
     InputError
-        When segments lie on each other.
+        When segments lie on each other, or reach through the wall.
     """
+    if image and strips.middle[:, 0].min() <= 0.0:
+        limit = "the folded wing must stay on its side of the wall at the root"
+        remedy = "Take the wall away (image), or change the angles."
+        raise InputError("fold", _in_degrees(fold_angles), limit, remedy)
     near = closeness(strips)
     pair = f"segments {near.segment + 1} and {near.other + 1}"
     if near.ratio < TOUCHING:
-        folds = ", ".join(f"{math.degrees(angle):g}" for angle in fold_angles)
-        limit = f"{pair} lie on each other, {1e3 * near.distance:.2g} mm apart"
+        limit = f"{pair} lie on each other, {round(1e3 * near.distance, 6):g} mm apart"
         remedy = "A vortex lattice cannot be folded flat: change the angle by some degrees."
-        raise InputError("fold", folds, limit, remedy)
+        raise InputError("fold", _in_degrees(fold_angles), limit, remedy)
     if near.ratio < CLOSE:
         return (
             f"{pair} come within {1e3 * near.distance:.2g} mm of each other, "

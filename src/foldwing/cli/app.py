@@ -69,7 +69,8 @@ def modes(
     json: options.Json = False,
 ) -> None:
     """Natural frequencies and mode shapes."""
-    from foldwing.cli.commands import Output, Request, run_modes
+    from foldwing.cli.commands import Output, run_modes
+    from foldwing.cli.request import Request
 
     request = Request(model, fold, fold_of, basis=basis, measured=measured)
     run_modes(request, Output(plot, out, force, json))
@@ -85,6 +86,7 @@ def flutter(
     aero: options.Aero = "strip",
     drop_mode: options.DropMode = None,
     panels: options.Panels = None,
+    spacing: options.Spacing = None,
     gap: options.Gap = None,
     basis: options.Basis = None,
     damping: options.Damping = None,
@@ -97,7 +99,8 @@ def flutter(
     json: options.Json = False,
 ) -> None:
     """Flutter and divergence points, and eigenvalues against airspeed."""
-    from foldwing.cli.commands import Output, Request, run_flutter
+    from foldwing.cli.commands import Output, run_flutter
+    from foldwing.cli.request import Request
 
     request = Request(
         model,
@@ -107,6 +110,7 @@ def flutter(
         aero=aero,
         drop_mode=drop_mode,
         panels=panels,
+        spacing=spacing,
         gap=gap,
         damping=options.number("--damping", damping, "0.01"),
         damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
@@ -127,6 +131,7 @@ def boundary(
     aero: options.Aero = "strip",
     drop_mode: options.DropMode = None,
     panels: options.Panels = None,
+    spacing: options.Spacing = None,
     gap: options.Gap = None,
     basis: options.Basis = None,
     damping: options.Damping = None,
@@ -140,7 +145,8 @@ def boundary(
     json: options.Json = False,
 ) -> None:
     """Flutter and divergence points against fold angle."""
-    from foldwing.cli.commands import Output, Request, run_boundary
+    from foldwing.cli.commands import Output, run_boundary
+    from foldwing.cli.request import Request
 
     request = Request(
         model,
@@ -150,6 +156,7 @@ def boundary(
         aero=aero,
         drop_mode=drop_mode,
         panels=panels,
+        spacing=spacing,
         gap=gap,
         damping=options.number("--damping", damping, "0.01"),
         damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
@@ -170,6 +177,7 @@ def convergence(
     aero: options.Aero = "strip",
     drop_mode: options.DropMode = None,
     panels: options.Panels = None,
+    spacing: options.Spacing = None,
     gap: options.Gap = None,
     basis: options.Basis = None,
     damping: options.Damping = None,
@@ -183,8 +191,9 @@ def convergence(
     json: options.Json = False,
 ) -> None:
     """Error bars of the flutter points of one case: mesh, wake, time step, modes."""
-    from foldwing.cli.commands import Output, Request
+    from foldwing.cli.commands import Output
     from foldwing.cli.convergence import run_convergence
+    from foldwing.cli.request import Request
 
     request = Request(
         model,
@@ -194,6 +203,7 @@ def convergence(
         aero=aero,
         drop_mode=drop_mode,
         panels=panels,
+        spacing=spacing,
         gap=gap,
         damping=options.number("--damping", damping, "0.01"),
         damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
@@ -213,6 +223,7 @@ def steady(
     alpha: options.Alpha = "5",
     speed: options.Speed = "20",
     panels: options.Panels = None,
+    spacing: options.Spacing = None,
     gap: options.Gap = None,
     image: options.Image = False,
     plot: options.Plot = True,
@@ -229,6 +240,7 @@ def steady(
         fold,
         fold_of,
         panels=panels,
+        spacing=spacing,
         gap=gap,
         alpha=options.given_number("--alpha", alpha, "5"),
         speed=options.given_number("--speed", speed, "20"),

@@ -10,12 +10,12 @@ from foldwing.cli import tables
 from foldwing.cli.commands import (
     FAILED,
     Output,
-    Request,
     computing,
     print_json,
     shown,
     write_result,
 )
+from foldwing.cli.request import Request
 from foldwing.model import model_text
 
 if TYPE_CHECKING:

@@ -72,6 +72,15 @@ Panels = Annotated[
         help="Lattice: panels along the chord and strips along the span, 8x30; not the model's.",
     ),
 ]
+Spacing = Annotated[
+    Literal["uniform", "cosine", "inset"] | None,
+    typer.Option(
+        "--spacing",
+        metavar="NAME",
+        help="Lattice: uniform strips, cosine (denser at the ends of a segment) or inset (ending a "
+        "quarter strip before free edges, most accurate); not the model's.",
+    ),
+]
 Gap = Annotated[
     str | None,
     typer.Option(

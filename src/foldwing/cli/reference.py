@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import xarray
 
     from foldwing.aeroelastic.wing import AeroelasticWing
-    from foldwing.cli.commands import Request
+    from foldwing.cli.request import Request
     from foldwing.results import Source
 
 

@@ -218,7 +218,11 @@ def _validity(dataset: "xarray.Dataset") -> str:
         return ""
     lowest = dataset["valid_from"].values
     lowest = lowest[np.isfinite(lowest)]
-    return f", from {lowest.max():.3g} m/s on" if lowest.size else ""
+    if not lowest.size:
+        return ""
+    if lowest.max() > float(dataset.attrs.get("speed_limit", np.inf)):
+        return f" among the modes resolved (all of them only from {lowest.max():.3g} m/s on)"
+    return f", from {lowest.max():.3g} m/s on"
 
 
 def response(dataset: "xarray.Dataset") -> str:

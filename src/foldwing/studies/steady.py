@@ -9,7 +9,7 @@ import numpy as np
 
 from foldwing.aerodynamics.lattice import Strips, mesh_segments
 from foldwing.aerodynamics.steady_loads import WingLoads, wing_loads, wing_strips
-from foldwing.aeroelastic.wing import closeness_warning
+from foldwing.aeroelastic.wing import strips_warning
 from foldwing.errors import FoldwingError, InputError
 from foldwing.maths.arrays import Real
 from foldwing.model import Wing
@@ -155,7 +155,7 @@ def _solved(
     wings: Sequence[Wing], folds: tuple[float, ...], alpha: float, speed: float
 ) -> SteadyOutcome:
     angles = radians(folds)
-    warning = closeness_warning(wing_strips(wings[0], angles), angles)
+    warning = strips_warning(wing_strips(wings[0], angles), angles, wings[0].lattice.image)
     loads = tuple(wing_loads(wing, angles, math.radians(alpha), speed) for wing in wings)
     if not all(math.isfinite(each.efficiency) for each in loads):
         warning = f"{warning} {NO_LEAST_DRAG}".strip()

@@ -1,0 +1,135 @@
+"""What is asked for on the command line, and the wing that it means."""
+
+import contextlib
+import re
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+from foldwing.errors import InputError
+from foldwing.model import Wing, parse_model
+
+if TYPE_CHECKING:
+    from foldwing.aeroelastic.wing import AeroelasticWing
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is to be computed; every field as the user gave it."""
+
+    model: str
+    fold: str | None = None
+    fold_of: list[str] | None = None
+    basis: str | None = None
+    aero: str = "strip"
+    drop_mode: list[str] | None = None
+    panels: str | None = None
+    spacing: str | None = None
+    gap: str | None = None
+    damping: float | None = None
+    damping_threshold: float | None = None
+    max_speed: float | None = None
+    speeds: str | None = None
+    measured: str | None = None
+    trace: bool = False
+    jobs: int = 1
+    vary: str | None = None
+    levels: list[str] | None = None
+    method: str = "sweep"
+    time_step: float | None = None
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The options that differ from their defaults, kept with the result."""
+        defaults = {field.name: field.default for field in fields(self)}
+        return {key: value for key, value in asdict(self).items() if value != defaults[key]}
+
+    def wing(self, text: str) -> Wing:
+        """Return the wing of the model file, its analysis changed by the options."""
+        wing = parse_model(text, self.model)
+        changes = {
+            "basis": self.basis,
+            "damping": self.damping,
+            "damping_threshold": self.damping_threshold,
+        }
+        given = {key: value for key, value in changes.items() if value is not None}
+        wing = self._meshed(wing)
+        try:
+            return wing.with_analysis(**given) if given else wing
+        except InputError as problem:
+            key = problem.field.removeprefix("analysis.")
+            raise InputError(
+                f"--{key.replace('_', '-')}", problem.value, problem.limit, problem.remedy
+            ) from None
+
+    def _meshed(self, wing: Wing) -> Wing:
+        """Return the wing with the panels, their spacing and the gaps of the options."""
+        if self.panels is not None:
+            count = re.fullmatch(r"(\d{1,6})[x×](\d{1,6})", self.panels.strip())
+            limit = "must be panels along the chord, x, strips along the span"
+            if count is None:
+                raise InputError("--panels", self.panels, limit, "Write for example --panels 8x30.")
+            with _as_option("--panels"):
+                wing = wing.with_lattice(chordwise=int(count[1]), spanwise=int(count[2]))
+        if self.spacing is not None:
+            with _as_option("--spacing"):
+                wing = wing.with_lattice(spacing=self.spacing)
+        if self.gap is not None:
+            with _as_option("--gap"):
+                wing = wing.with_gaps(_bare_or_text(self.gap))
+        return wing
+
+    def model_of(self, wing: Wing) -> "AeroelasticWing":
+        """Return the wing with the aerodynamics asked for."""
+        from foldwing.aeroelastic.wing import AeroelasticWing
+
+        return AeroelasticWing(wing, self.aero, tuple(self.drop_mode or ()))
+
+    def cases(self, wing: Wing) -> list[tuple[float, ...]]:
+        """Return the fold angles in degrees of every case."""
+        from foldwing.studies.grid import fold_cases
+
+        return fold_cases(wing, self.fold, _by_hinge(self.fold_of or []))
+
+    def one_case(self, wing: Wing, command: str = "flutter") -> tuple[float, ...]:
+        """Return the fold angles in degrees when only one case is possible."""
+        cases = self.cases(wing)
+        if len(cases) > 1:
+            given = ", ".join(self.fold_of or [])
+            limit = f"{command} takes one set of fold angles, not {len(cases)}"
+            remedy = "Give one angle for each hinge, or use: foldwing boundary."
+            raise InputError("--fold-of", given, limit, remedy)
+        return cases[0]
+
+
+@contextlib.contextmanager
+def _as_option(option: str) -> Iterator[None]:
+    """Name the option where a value that it gave cannot be used."""
+    try:
+        yield
+    except InputError as problem:
+        raise InputError(option, problem.value, problem.limit, problem.remedy) from None
+
+
+def _bare_or_text(value: str) -> float | str:
+    try:
+        return float(value)
+    except ValueError:
+        return value
+
+
+def _by_hinge(texts: list[str]) -> dict[int, str]:
+    """Return what ``I=ANGLE`` or ``--foldI ANGLE`` gave for each hinge."""
+    result: dict[int, str] = {}
+    for text in texts:
+        number, _, value = text.partition("=")
+        remedy = "Write --fold2 30, --fold2 0:150:5 or --fold3 level."
+        if not number.isdecimal():
+            raise InputError("--fold-of", text, "must be a hinge from 2 and its angle", remedy)
+        hinge = int(number)
+        if not value.strip():
+            raise InputError(f"--fold{hinge}", None, "needs an angle", remedy)
+        if hinge in result:
+            raise InputError(f"--fold{hinge}", value, "was given already", "Give it once.")
+        result[hinge] = value
+    return result
