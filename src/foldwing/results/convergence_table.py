@@ -11,6 +11,8 @@ from foldwing.results.flutter_table import FlutterRow, flutter_rows
 if TYPE_CHECKING:
     import xarray
 
+SPAN_REMEDY = "Inset spacing (--spacing inset) or more strips lessen the error of the span."
+
 TARGET = 0.01
 """Relative error bar that is asked of the mesh."""
 
@@ -117,7 +119,10 @@ def _mesh_answer(
         for point, row in enumerate(rows)
         if not good[point]
     ]
-    return f"{text}; not {', '.join(parts)}." if parts else f"{text}."
+    if not parts:
+        return f"{text}."
+    remedy = f" {SPAN_REMEDY}" if any("the span" in part for part in parts) else ""
+    return f"{text}; not {', '.join(parts)}.{remedy}"
 
 
 def _reason(dataset: "xarray.Dataset", point: int, relative: float) -> str:
