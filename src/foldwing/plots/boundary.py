@@ -23,7 +23,7 @@ from foldwing.plots.picture import (
 )
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
-from foldwing.results.summary import failed_cases, uncertified_cases
+from foldwing.results.summary import failed_cases, uncertified_cases, unresolved_below
 
 if TYPE_CHECKING:
     import xarray
@@ -50,7 +50,8 @@ def boundary(dataset: "xarray.Dataset") -> Picture | None:
     )
     top, x = _top(dataset, rows), padded(swept.values, 0.02)
     shaded = _shaded(dataset, swept, rows, colors)
-    speed = [*shaded, *speed, *_case_marks(dataset, swept, rows, top)]
+    marks = _case_marks(dataset, swept, rows, top)
+    speed = [*shaded, *_unresolved(dataset, swept), *speed, *marks]
     hertz = _frequency_range(dataset, flutter)
     return Picture(
         "boundary",
@@ -63,6 +64,15 @@ def boundary(dataset: "xarray.Dataset") -> Picture | None:
             Panel(swept.label, "strength (s/m)", strength, x, height=0.75),
         ],
     )
+
+
+def _unresolved(dataset: "xarray.Dataset", swept: Sweep) -> list[Item]:
+    """Return the airspeeds below which some modes are too fast for the lattice."""
+    lowest = unresolved_below(dataset)
+    if not np.isfinite(lowest).any():
+        return []
+    x, y = swept.values[swept.order], lowest[swept.order]
+    return [Line(x, y, "muted", "dot", 1.4, label="below: some modes are not resolved")]
 
 
 def boundary_map(dataset: "xarray.Dataset") -> Picture | None:

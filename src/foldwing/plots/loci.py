@@ -24,7 +24,7 @@ from foldwing.plots.picture import (
     spread,
 )
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
-from foldwing.results.summary import fold_text
+from foldwing.results.summary import fold_text, unresolved_below
 
 if TYPE_CHECKING:
     import xarray
@@ -46,16 +46,19 @@ def against_speed(dataset: "xarray.Dataset") -> Picture | None:
     growth_range = focused(growth, 3.0)
     top = _highest_shown(frequency, rows)
     x = [row.speed for row in rows]
+    resolved = _resolved_from(dataset, limits)
     upper = [
         *_unstable_above(limits, growth_range),
         *_branches(dataset, growth, growth_range, "growth"),
         *_rules(rows, colors),
+        *resolved,
         *_threshold_marks(rows, colors),
         *_rule_labels(rows, colors, limits, growth_range[0]),
     ]
     lower = [
         *_branches(dataset, frequency, (-0.03 * top, top), "frequency"),
         *_rules(rows, colors),
+        *resolved,
         *event_marks(rows, x, [row.frequency for row in rows], colors),
     ]
     label = "airspeed (m/s)"
@@ -63,13 +66,20 @@ def against_speed(dataset: "xarray.Dataset") -> Picture | None:
         "growth-and-frequency",
         "How the motions of the wing grow or decay as the airspeed rises",
         subtitle(dataset, fold_text(dataset, 0)) + ". Above zero (shaded) a motion grows by "
-        f"itself: the wing is unstable. Vertical lines mark the exact speeds {_where(dataset)}.",
+        f"itself: the wing is unstable. Vertical lines mark the exact speeds {_where(dataset)}."
+        + (" Dotted: from here on the lattice resolves all modes." if resolved else ""),
         [
             Panel(label, "growth rate (1/s)", upper, limits, growth_range, height=1.1),
             Panel(label, "frequency (Hz)", lower, limits, (-0.03 * top, top), height=1.1),
         ],
         right_margin=0.6,
     )
+
+
+def _resolved_from(dataset: "xarray.Dataset", limits: Range) -> list[Item]:
+    """Return a line at the airspeed from which all modes are resolved, if that is in view."""
+    lowest = float(unresolved_below(dataset)[0])
+    return [Rule(lowest, "x", "muted", "dot", 1.4)] if limits[0] < lowest < limits[1] else []
 
 
 def _where(dataset: "xarray.Dataset") -> str:

@@ -252,6 +252,14 @@ def warnings(dataset: "xarray.Dataset") -> str:
     return " ".join(filter(None, parts))
 
 
+def unresolved_below(dataset: "xarray.Dataset") -> "np.ndarray[tuple[int], np.dtype[np.float64]]":
+    """Return the airspeed below which modes of each case are not resolved; nan where all are."""
+    if "uncertified_modes" not in dataset:
+        return np.full(dataset.sizes["fold"], np.nan)
+    named = dataset["uncertified_modes"].values != ""
+    return np.where(named, dataset["valid_from"].values, np.nan)
+
+
 def _unresolved(dataset: "xarray.Dataset") -> str:
     """Return which modes are too fast for the aerodynamic model at low airspeed, and the remedy."""
     if "uncertified_modes" not in dataset:
