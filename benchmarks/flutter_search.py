@@ -13,11 +13,9 @@ import os
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
-import statistics
-import time
-from collections.abc import Callable
 
 import numpy as np
+from support.timing import median_time
 
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.aeroelastic.wing import AeroelasticWing
@@ -32,18 +30,6 @@ FOLDS = (30.0, -60.0)
 SPEED_RANGE = (0.4, 60.0)
 AIRSPEEDS = np.linspace(0.6, 60.0, 100)
 GRID = 200
-REPEATS = 7
-
-
-def median_time(run: Callable[[], object], repeats: int = REPEATS) -> float:
-    """Return the median wall time of a call in seconds, after one that does not count."""
-    run()
-    times = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        run()
-        times.append(time.perf_counter() - start)
-    return statistics.median(times)
 
 
 def system_of(model: AeroelasticWing) -> AeroelasticSystem:

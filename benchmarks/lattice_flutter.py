@@ -19,8 +19,6 @@ import os
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
-import statistics
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -28,6 +26,7 @@ import numpy as np
 import scipy.linalg
 from scipy.signal import lfilter
 from scipy.sparse.linalg import LinearOperator, eigs
+from support.timing import median_time
 
 from foldwing.aeroelastic.reference import Marching, Reference
 from foldwing.aeroelastic.reference_roots import roots_near
@@ -44,17 +43,6 @@ AIRSPEEDS = np.linspace(0.6, 60.0, 100)
 TIMED = AIRSPEEDS[4::10]
 TOLERANCE = 1e-8
 REPEATS = 5
-
-
-def median_time(run: Callable[[], object], repeats: int) -> float:
-    """Return the median wall time of a call in seconds, after one that does not count."""
-    run()
-    times = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        run()
-        times.append(time.perf_counter() - start)
-    return statistics.median(times)
 
 
 def model_of(chordwise: int, scheme: str) -> AeroelasticWing:

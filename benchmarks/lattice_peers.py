@@ -26,8 +26,6 @@ os.environ["NUMBA_NUM_THREADS"] = "1"
 
 import importlib
 import logging
-import statistics
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -36,6 +34,7 @@ from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
+from support.timing import median_time
 
 from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.lattice import INSET, SegmentMesh, Strips
@@ -68,17 +67,6 @@ class Case:
         strips = self.strips.turned(turn)
         influence = Influence(strips, self.chordwise, WAKE * self.chordwise)
         return lattice_model(influence, self.motion, self.lengths, 1.0, self.half_chord, Lattice())
-
-
-def median_time(run: Callable[[], object], repeats: int = 9) -> float:
-    """Return the median wall time of a call in milliseconds, after one that does not count."""
-    run()
-    times = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        run()
-        times.append(time.perf_counter() - start)
-    return 1e3 * statistics.median(times)
 
 
 def peer(name: str) -> ModuleType | None:
@@ -255,18 +243,18 @@ def print_slopes(ps: ModuleType | None, dlm: ModuleType | None) -> None:
     for name, slope in codes:
         values = [(slope(aspect), exact) for aspect, exact in EXACT.items()]
         row = "".join(f"{value:12.4f}{100 * (value / exact - 1):8.2f}%" for value, exact in values)
-        print(f"{name:32}{row}{median_time(partial(slope, 6)):7.1f} ms")
+        print(f"{name:32}{row}{1e3 * median_time(partial(slope, 6)):7.1f} ms")
 
 
 def print_forces(dlm: ModuleType | None) -> None:
     """Print the time of unsteady forces, and plunge and pitch beside the doublet lattice."""
     case = rectangle_case(6)
-    ours = median_time(lambda: our_forces(case))
+    ours = 1e3 * median_time(lambda: our_forces(case))
     print(f"\nForces of {len(FREQUENCIES)} reduced frequencies, 12 modes, aspect 6")
     print(f"foldwing                        {ours:9.1f} ms, set-up and all")
     if dlm is None:
         return
-    theirs = median_time(lambda: panelaero_forces(dlm, case, FREQUENCIES), 1)
+    theirs = 1e3 * median_time(lambda: panelaero_forces(dlm, case, FREQUENCIES), 1)
     print(f"PanelAero                       {theirs:9.1f} ms, {theirs / ours:.0f} times as long")
     Q = case.model().forces(1j * np.array(COMPARED))
     D = panelaero_forces(dlm, case, np.array(COMPARED))

@@ -17,13 +17,12 @@ os.environ["OMP_NUM_THREADS"] = "1"
 
 import json
 import resource
-import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 
 import numpy as np
+from support.timing import median_time
 
 from foldwing.aerodynamics.rational import rational_model
 from foldwing.aerodynamics.unsteady import LatticeModel
@@ -45,17 +44,6 @@ COLUMNS = {
     "direct, ms per p": "direct",
     "memory, MB": "memory",
 }
-
-
-def median_time(run: Callable[[], object], repeats: int = 7) -> float:
-    """Return the median wall time of a call in seconds, after one that does not count."""
-    run()
-    times = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        run()
-        times.append(time.perf_counter() - start)
-    return statistics.median(times)
 
 
 def peak_memory() -> float:

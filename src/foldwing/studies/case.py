@@ -49,24 +49,11 @@ class Case:
 
     def rows(self, index: int) -> list[FlutterRow]:
         """Return the table of flutter points of this case, whose number is ``index``."""
-        return [self._row(index, point) for point in self.analysis.points]
-
-    def _row(self, index: int, point: FlutterPoint) -> FlutterRow:
-        return FlutterRow(
-            case=index,
-            fold=self.folds,
-            kind=point.kind,
-            event=point.event,
-            classification=point.classification,
-            speed=point.speed,
-            frequency=point.frequency,
-            strength=point.strength,
-            branch=point.branch,
-            mode_name=self.modes.names[point.mode],
-            mode_confidence=point.mode_confidence,
-            threshold=self.analysis.threshold,
-            residual=point.residual,
-        )
+        names, threshold = self.modes.names, self.analysis.threshold
+        return [
+            flutter_row(point, index, self.folds, names, threshold)
+            for point in self.analysis.points
+        ]
 
     def motions(self) -> Complex:
         """Return the motion at each flutter point in modal coordinates, shape (points, n)."""
@@ -75,6 +62,31 @@ class Case:
         speed = np.array([point.speed for point in points], float)
         x = np.array([point.vector for point in points]).reshape(len(points), self.system.size)
         return self.system.modal_vectors(p, speed, x)
+
+
+def flutter_row(
+    point: FlutterPoint,
+    case: int,
+    folds: tuple[float, ...],
+    names: Sequence[str],
+    threshold: float,
+) -> FlutterRow:
+    """Return the row of a flutter point in the table; ``names`` are those of the modes."""
+    return FlutterRow(
+        case=case,
+        fold=folds,
+        kind=point.kind,
+        event=point.event,
+        classification=point.classification,
+        speed=point.speed,
+        frequency=point.frequency,
+        strength=point.strength,
+        branch=point.branch,
+        mode_name=names[point.mode],
+        mode_confidence=point.mode_confidence,
+        threshold=threshold,
+        residual=point.residual,
+    )
 
 
 def solve_case(

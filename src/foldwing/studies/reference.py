@@ -24,13 +24,13 @@ from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
 from foldwing.model import Wing
-from foldwing.results.flutter_table import FlutterRow, table_variables
+from foldwing.results.flutter_table import table_variables
 from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.loci import RootLoci
 from foldwing.stability.status import FlutterPoint, Status
 from foldwing.structure.following import FollowedModes
-from foldwing.studies.case import solve_case
+from foldwing.studies.case import flutter_row, solve_case
 from foldwing.studies.flutter import loci_variables, padded, search_attributes
 from foldwing.studies.grid import radians
 from foldwing.studies.loads import unit_motions
@@ -204,7 +204,7 @@ def _case_variables(
             mode_variables(followed) | shape_variables(followed, grid) | response, len(loci.mode)
         )
         | loci_variables(loci, modes.names)
-        | table_variables([_row(point, folds, modes.names, limit) for point in points])
+        | table_variables([flutter_row(point, 0, folds, modes.names, limit) for point in points])
         | {"flutter_shape": (("flutter_point", "point", "axis"), shapes)}
     )
     coords = fold_coordinates([folds]) | grid.coordinates()
@@ -256,26 +256,6 @@ def _loci(found: ReferenceFlutter, speeds: Real) -> RootLoci:
         status=status,
         mode=np.concatenate([np.arange(count), np.full(width, -1)]),
         certified=np.zeros(len(speeds), bool),
-    )
-
-
-def _row(
-    point: FlutterPoint, folds: tuple[float, ...], names: tuple[str, ...], threshold: float
-) -> FlutterRow:
-    return FlutterRow(
-        case=0,
-        fold=folds,
-        kind=point.kind,
-        event=point.event,
-        classification=point.classification,
-        speed=point.speed,
-        frequency=point.frequency,
-        strength=point.strength,
-        branch=point.branch,
-        mode_name=names[point.mode],
-        mode_confidence=point.mode_confidence,
-        threshold=threshold,
-        residual=point.residual,
     )
 
 
