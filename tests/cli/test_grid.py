@@ -90,3 +90,11 @@ def test_level_has_no_negative_zero():
 def test_airspeeds():
     assert parse_speeds("0:60:20").tolist() == [0.0, 20.0, 40.0, 60.0]
     assert parse_speeds("35").tolist() == [35.0]
+
+
+def test_no_more_processes_than_cores(monkeypatch):
+    """A thousand of them would only fill the memory."""
+    from foldwing.cli import options
+
+    monkeypatch.setattr(options.os, "cpu_count", lambda: 3)
+    assert [options.processes(text) for text in ("1", "3", "1000")] == [1, 3, 3]

@@ -163,7 +163,7 @@ def boundary(
         max_speed=options.number("--max-speed", max_speed, "60"),
         measured=measured,
         trace=trace,
-        jobs=options.whole_number("--jobs", jobs),
+        jobs=options.processes(jobs),
     )
     run_boundary(request, Output(plot, out, force, json))
 
@@ -208,7 +208,7 @@ def convergence(
         damping=options.number("--damping", damping, "0.01"),
         damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
         max_speed=options.number("--max-speed", max_speed, "60"),
-        jobs=options.whole_number("--jobs", jobs),
+        jobs=options.processes(jobs),
         vary=vary,
         levels=levels,
     )

@@ -3,6 +3,7 @@
 Numbers arrive as text, so that `number` and `whole_number` word their errors like all others.
 """
 
+import os
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -149,7 +150,12 @@ Levels = Annotated[
         help="Values to try, chordwise=4,8,16; the model's own is added. May be repeated.",
     ),
 ]
-Jobs = Annotated[str, typer.Option("--jobs", metavar="N", help="Processes to run in parallel.")]
+Jobs = Annotated[
+    str,
+    typer.Option(
+        "--jobs", metavar="N", help="Processes to run in parallel, at most one for each core."
+    ),
+]
 Method = Annotated[
     Literal["sweep", "reference"],
     typer.Option(
@@ -195,6 +201,11 @@ def given_number(field: str, text: str, example: str) -> float:
     except ValueError:
         remedy = f"Write it without a unit, for example {field} {example}."
         raise InputError(field, text, "must be a number", remedy) from None
+
+
+def processes(jobs: str) -> int:
+    """Return how many processes to run: as asked for, but never more than there are cores."""
+    return min(whole_number("--jobs", jobs), os.cpu_count() or 1)
 
 
 def whole_number(field: str, text: str) -> int:
