@@ -35,6 +35,7 @@ class Oscillator:
     size: int = 1
     half_chord: float = 1.0
     highest_frequency: float = math.inf
+    largest_decay: float = math.inf
 
     @property
     def mass(self):

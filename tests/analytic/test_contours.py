@@ -27,6 +27,7 @@ class Scalar:
     size: int = 1
     half_chord: float = 1.0
     highest_frequency: float = math.inf
+    largest_decay: float = math.inf
 
     def pencil(self, p):
         return Pencil(np.zeros((1, 1), complex), None, self.f(p)[:, None, None])

@@ -139,6 +139,28 @@ def test_closeness_is_the_distance_between_a_strip_and_its_neighbour():
     assert near.ratio == pytest.approx(0.5 * np.sin(np.radians(10.0)), rel=1e-9)
 
 
+@pytest.mark.parametrize("strips", [[2, 40, 2], [1, 900, 1], [5, 30, 5]])
+@pytest.mark.parametrize("spacing", ["uniform", "cosine"])
+def test_flat_wing_is_never_too_close_to_itself(strips, spacing):
+    """However unlike the strips on either side of a hinge are."""
+    wing = THREE.with_lattice(spanwise=strips, spacing=spacing, chordwise=1)
+    model, modes, found = lattice(wing, 0.0, 0.0)
+    assert closeness(found).ratio == pytest.approx(0.5)
+    assert model.warning(modes) == ""
+
+
+def test_narrow_and_wide_gaps_are_named():
+    for gap, spacing, words in (
+        ("1 mm", "uniform", "Gaps of hinges 2, 3 are narrower than the strips beside"),
+        ("6 mm", "uniform", "Gaps of hinges 2, 3 are wider than 0.1 chords."),
+        ("1 mm", "inset", ""),
+        ("4 mm", "uniform", ""),
+    ):
+        model, modes, _ = lattice(THREE.with_gaps(gap).with_lattice(spacing=spacing), 0.0, 0.0)
+        warning = model.warning(modes)
+        assert warning.startswith(words) and bool(warning) == bool(words)
+
+
 def test_closeness_finds_segments_that_are_no_neighbours():
     wing = THREE.with_lattice(spanwise=60)
     _, _, strips = lattice(wing, 90.0, 90.0)

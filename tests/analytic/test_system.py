@@ -37,6 +37,7 @@ class PolynomialAir:
     Q2: np.ndarray
     half_chord: float = 0.5
     highest_frequency: float = math.inf
+    largest_decay: float = math.inf
     scheme: TimeScheme = EXACT
 
     @property

@@ -1,5 +1,8 @@
 """The vortex lattice on the command line."""
 
+from pathlib import Path
+
+import numpy as np
 import pytest
 
 from foldwing.results import read_dataset
@@ -28,8 +31,8 @@ def test_flutter_answers_with_what_is_resolved(cli, empty_folder):
 
 def test_table_says_what_is_not_resolved(cli):
     out = " ".join(cli("flutter", "three-segment", *FOLD, *QUICK).out.split())
-    assert "Below that the lattice does not resolve the modes" in out
-    assert "More panels along the chord lower the limit." in out
+    assert "Below that modes drop out, the fastest first; at" in out
+    assert "More panels along the chord lower the limits." in out
 
 
 def test_search_that_ends_before_all_modes_are_resolved(cli):
@@ -64,6 +67,18 @@ def test_mode_left_out(cli):
     assert "B2" not in {point["mode"] for point in without["flutter_points"]}
     two = flutter(cli, "--drop-mode", "B2", "--drop-mode", "T1")
     assert {"B2", "T1"}.isdisjoint({*two["uncertified_modes"]})
+
+
+def test_branch_lost_between_coarse_airspeeds_is_no_new_one(cli):
+    """Its first airspeeds may have no value; no warning, and each pair once."""
+    mesh = ("--aero", "lattice", "--panels", "4x12", "--no-plot")
+    coarse = cli("flutter", "hale", *mesh, "--speeds", "20:140:10", "--out", "coarse")
+    assert (coarse.status, coarse.err) == (0, "")
+    values = read_dataset(Path("coarse/dataset.nc"))["eigenvalue"].values[0]
+    for row in values:
+        found = row[np.isfinite(row.real) & (row.imag > 0.0)]
+        apart = np.abs(found[:, None] / found - 1.0) + np.eye(len(found))
+        assert apart.min() > 1e-6
 
 
 def test_boundary(cli):
@@ -104,6 +119,8 @@ def test_folds_near_to_itself_carry_a_warning(cli):
         (("--gap", "30 cm"), "--gap: got 0.3; gaps must leave some of the 0.14 m of segment 1"),
         (("--gap", "wide"), "--gap: got 'wide'; must be a length (m)"),
         (("--gap", "-1 mm"), "--gap: got '-1 mm'; must be a length (m)"),
+        (("--aero", "strip", "--panels", "8x30"), "--panels: got '8x30'; belongs to the vortex"),
+        (("--aero", "strip", "--gap", "1 mm"), "--gap: got '1 mm'; belongs to the vortex lattice"),
         (("--drop-mode", "Q7"), "--drop-mode: got 'Q7'; must be one of: B1, B2, T1"),
     ],
 )

@@ -74,6 +74,7 @@ class Polynomials:
     linear: tuple = ()
     half_chord: float = 1.0
     highest_frequency: float = math.inf
+    largest_decay: float = math.inf
 
     @property
     def size(self):

@@ -52,6 +52,7 @@ class TypicalSection:
     damping_ratio: float = 0.0
     half_chord: float = 1.0
     highest_frequency: float = math.inf
+    largest_decay: float = math.inf
 
     @property
     def size(self) -> int:
@@ -134,6 +135,11 @@ class ManySections:
 
     @property
     def highest_frequency(self) -> float:
+        """No limit."""
+        return math.inf
+
+    @property
+    def largest_decay(self) -> float:
         """No limit."""
         return math.inf
 

@@ -157,7 +157,7 @@ class Closeness(NamedTuple):
     distance : float
         From the middle of a strip of ``segment`` to a strip of ``other``, in metres.
     ratio : float
-        The distance in widths of the strip.
+        The distance in widths of the strip of ``segment``.
     """
 
     segment: int
@@ -175,7 +175,7 @@ def closeness(strips: Strips) -> Closeness:
     offset = strips.middle[:, None] - strips.inner
     share = np.clip((offset * along).sum(axis=2) / strips.width**2, 0.0, 1.0)
     distance = np.linalg.norm(offset - share[:, :, None] * along, axis=2)
-    ratio = np.where(apart, distance / np.maximum(strips.width[:, None], strips.width), np.inf)
+    ratio = np.where(apart, distance / strips.width[:, None], np.inf)
     i, j = np.unravel_index(np.argmin(ratio), ratio.shape)
     nearest = (int(strips.segment[i]), int(strips.segment[j]))
     return Closeness(*nearest, float(distance[i, j]), float(ratio[i, j]))

@@ -26,6 +26,10 @@ class AerodynamicModel(Protocol):
         """Reduced frequency Im p up to which the model holds; infinite without a limit."""
 
     @property
+    def largest_decay(self) -> float:
+        """Decay -Re p up to which the model holds; infinite without a limit."""
+
+    @property
     def scheme(self) -> TimeScheme:
         """How time derivatives are taken, by the structure too: exact in continuous time."""
 

@@ -48,6 +48,8 @@ class RationalModel:
         Reference length b of p in metres.
     highest_frequency : float
         Reduced frequency up to which samples were taken.
+    largest_decay : float
+        Decay -Re p up to which the model approximated holds.
     scheme : TimeScheme
         That of the model approximated.
     support, weights : array, shape (s,)
@@ -66,6 +68,7 @@ class RationalModel:
 
     half_chord: float
     highest_frequency: float
+    largest_decay: float
     scheme: TimeScheme
     support: Complex
     weights: Complex
@@ -145,6 +148,7 @@ def rational_model(
     fitted = RationalModel(
         half_chord=model.half_chord,
         highest_frequency=top,
+        largest_decay=model.largest_decay,
         scheme=model.scheme,
         support=1j * np.concatenate([k[chosen], -k[pair]]),
         weights=np.concatenate([w, w[k[chosen] > 0.0].conj()]),

@@ -44,11 +44,6 @@ class TimeScheme:
     name: str = "exact"
     step: float = 0.0
 
-    @property
-    def discrete(self) -> bool:
-        """Whether the scheme differs from the continuous derivative."""
-        return self.name != "exact"
-
     def rates(self, r: Complex) -> Rates:
         """Return what replaces r = p / b in 1/m, r^2 and 1."""
         return self.rates_with_derivative(r)[0]

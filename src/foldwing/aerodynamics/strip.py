@@ -116,6 +116,11 @@ class StripModel:
         return math.inf
 
     @property
+    def largest_decay(self) -> float:
+        """No limit: Theodorsen's function is continued to decaying motions."""
+        return math.inf
+
+    @property
     def scheme(self) -> TimeScheme:
         """Continuous time."""
         return EXACT

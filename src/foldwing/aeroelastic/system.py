@@ -58,6 +58,11 @@ class AeroelasticSystem:
         """Reduced frequency up to which the aerodynamic model holds."""
         return self.aerodynamics.highest_frequency
 
+    @property
+    def largest_decay(self) -> float:
+        """Decay -Re p up to which the aerodynamic model holds."""
+        return self.aerodynamics.largest_decay
+
     @cached_property
     def rigid(self) -> Mask:
         """Which modes have no stiffness."""

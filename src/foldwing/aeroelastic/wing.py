@@ -9,6 +9,8 @@ import numpy as np
 
 from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.lattice import (
+    COLLOCATION,
+    VORTEX,
     SegmentMesh,
     Strips,
     closeness,
@@ -28,6 +30,9 @@ from foldwing.structure.component import ComponentModes
 from foldwing.structure.modes import StructuralModes, natural_modes
 
 DEFAULT_LIFT_SLOPE = float(Segment.model_fields["lift_slope"].default)
+
+WIDE = 0.1
+"""Width of a gap in chords above which it is named."""
 
 TOUCHING, CLOSE = 1e-3, 0.1
 """Distance of segments, in widths of a strip, below which a lattice is refused or doubtful."""
@@ -137,7 +142,7 @@ class AeroelasticWing:
         doubts = strips_warning(self.strips(modes), modes.fold_angles, image)
         slopes = {segment.lift_slope for segment in self.wing.segments} - {DEFAULT_LIFT_SLOPE}
         unused = "The lattice does not use the model's lift_slope." if slopes else ""
-        return " ".join(filter(None, (doubts, unused)))
+        return " ".join(filter(None, (doubts, gap_warning(self.wing, self.meshes), unused)))
 
     def influence(self, modes: StructuralModes) -> Influence:
         """Return the influence of the vortices of the folded wing and its wake."""
@@ -192,6 +197,25 @@ class AeroelasticWing:
         return AeroelasticSystem(modes.omega, self.aerodynamic_model(modes), modes.damping)
 
 
+def gap_warning(wing: Wing, meshes: Sequence[SegmentMesh]) -> str:
+    """Return in words that the lattice is too coarse for narrow gaps, or gaps are very wide."""
+    narrow, wide = [], []
+    for number, hinge in enumerate(wing.hinges, start=2):
+        beside = [np.diff(meshes[number - 2].edges)[-1], np.diff(meshes[number - 1].edges)[0]]
+        if 0.0 < hinge.gap < max(beside) and wing.lattice.spacing != "inset":
+            narrow.append(str(number))
+        if hinge.gap > WIDE * min(wing.segments[i].chord for i in (number - 2, number - 1)):
+            wide.append(str(number))
+    texts = (
+        (
+            narrow,
+            "narrower than the strips beside: forces may be 10 % off, less with inset spacing",
+        ),
+        (wide, f"wider than {WIDE:g} chords"),
+    )
+    return " ".join(f"Gaps of hinges {', '.join(who)} are {text}." for who, text in texts if who)
+
+
 def _in_degrees(fold_angles: Sequence[float]) -> str:
     return ", ".join(f"{math.degrees(angle):g}" for angle in fold_angles)
 
@@ -232,7 +256,7 @@ def strips_warning(strips: Strips, fold_angles: Sequence[float], image: bool) ->
 
 def _panel_motion(component: ComponentModes, mesh: SegmentMesh, length: Real) -> PanelMotion:
     """Return the motion of the panels of one segment, normal to it, in its coordinates."""
-    collocation, vortex = mesh.station(0.75), mesh.station(0.25)
+    collocation, vortex = mesh.station(COLLOCATION), mesh.station(VORTEX)
     return PanelMotion(
         component.slopes(*mesh.points(collocation))[:, 0],
         *(

@@ -81,9 +81,15 @@ class Request:
 
     def model_of(self, wing: Wing) -> "AeroelasticWing":
         """Return the wing with the aerodynamics asked for."""
+        lattice = {"--panels": self.panels, "--spacing": self.spacing, "--gap": self.gap}
+        for option, value in lattice.items():
+            if value is not None and self.aero != "lattice":
+                limit = "belongs to the vortex lattice"
+                raise InputError(option, value, limit, "Add --aero lattice, or leave it out.")
         from foldwing.aeroelastic.wing import AeroelasticWing
 
-        return AeroelasticWing(wing, self.aero, tuple(self.drop_mode or ()))
+        dropped = tuple(name.upper() for name in self.drop_mode or ())
+        return AeroelasticWing(wing, self.aero, dropped)
 
     def cases(self, wing: Wing) -> list[tuple[float, ...]]:
         """Return the fold angles in degrees of every case."""

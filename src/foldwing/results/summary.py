@@ -268,10 +268,11 @@ def _unresolved(dataset: "xarray.Dataset") -> str:
     if not named:
         return ""
     modes = ", ".join(dict.fromkeys(name for names in named for name in names))
+    slow = float(dataset.attrs.get("speed_floor", 0.0))
     return (
-        f"{_where_unresolved(dataset)} the lattice does not resolve the modes {modes}: "
-        "their flutter points there would not be found. "
-        "More panels along the chord lower the limit."
+        f"{_where_unresolved(dataset)} modes drop out, the fastest first; at {slow:.2g} m/s the "
+        f"lattice does not resolve {modes}. Flutter points of a mode that has dropped out would "
+        "not be found. More panels along the chord lower the limits."
     )
 
 

@@ -11,7 +11,7 @@ from foldwing.stability.newton import Roots
 from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.real_axis import mergers, real_axis_path
 from foldwing.stability.status import FlutterPoint
-from foldwing.stability.sweep import Sweep, sweep
+from foldwing.stability.sweep import Sweep, resolved_frequency, sweep
 from foldwing.stability.tracking import resolved_speed, still_air_roots
 
 CRITICAL_EVENTS = ("onset", "merger")
@@ -46,8 +46,9 @@ class FlutterAnalysis:
 
     @property
     def unresolved(self) -> tuple[int, ...]:
-        """Columns of T whose motions at rest are too fast for the model at the lowest airspeed."""
-        return tuple(np.flatnonzero(self.lowest_resolved > self.speed_range[0]).tolist())
+        """Columns of T too fast for the model at the lowest airspeed, the fastest first."""
+        order = np.argsort(-self.lowest_resolved, kind="stable")
+        return tuple(order[self.lowest_resolved[order] > self.speed_range[0]].tolist())
 
     @property
     def valid_from(self) -> float:
@@ -106,15 +107,28 @@ def find_flutter(
         speed_range,
         threshold,
         result,
-        _lowest_resolved(problem),
+        lowest_resolved(problem, threshold),
     )
 
 
-def _lowest_resolved(problem: AeroelasticProblem) -> Real:
-    """Return the airspeed below which each column of T is beyond what the problem holds for."""
+def lowest_resolved(problem: AeroelasticProblem, threshold: float) -> Real:
+    """Return the airspeed in m/s below which each column of T is beyond what the problem holds for.
+
+    Parameters
+    ----------
+    problem : AeroelasticProblem
+    threshold : float
+        Damping ratio of the boundary; a positive one may narrow what the problem holds for.
+
+    Returns
+    -------
+    array, shape (n,)
+        0 without a limit, and for columns without stiffness.
+    """
     rest = still_air_roots(problem)
     lowest = np.zeros(problem.size)
-    lowest[rest.mode] = resolved_speed(problem, rest.eigenvalue)
+    highest = resolved_frequency(problem, threshold)
+    lowest[rest.mode] = resolved_speed(problem, rest.eigenvalue, highest)
     return lowest
 
 

@@ -146,8 +146,11 @@ def _with_branch(problem: AeroelasticProblem, loci: Loci, root: Branches) -> Loc
     if len(above) == 0 or len(below) == 0:
         return loci
     upward = record(problem, root, loci.speed[above])
-    same = np.abs(loci.eigenvalue[above[0]] / upward.eigenvalue[0, 0] - 1.0) < SAME_EIGENVALUE
-    if same.any():
+    known = np.flatnonzero(np.isfinite(upward.eigenvalue[:, 0].real))
+    if len(known) == 0:
+        return loci
+    beside, value = loci.eigenvalue[above[known[0]]], upward.eigenvalue[known[0], 0]
+    if (np.abs(beside / value - 1.0) < SAME_EIGENVALUE).any():
         return loci
     downward = record(problem, root, loci.speed[below])
     unborn = downward.status == Status.LEFT_DOMAIN

@@ -68,6 +68,10 @@ class AeroelasticProblem(Protocol):
     def highest_frequency(self) -> float:
         """Reduced frequency Im p up to which T is meaningful; infinite without a limit."""
 
+    @property
+    def largest_decay(self) -> float:
+        """Decay -Re p up to which T is meaningful; infinite without a limit."""
+
     def pencil(self, p: Complex) -> Pencil:
         """Return the coefficients of T at the values ``p``, shape (m,)."""
 

@@ -64,7 +64,13 @@ def sweep_region(
     b = problem.half_chord
     lowest = min(0.004, 0.5 * b * float(omega[0]) / fast)
     top = 1.2 * float(omega[-1]) * b / slow + 0.2 if highest is None else highest
-    return Region(threshold, lowest, min(top, problem.highest_frequency))
+    return Region(threshold, lowest, min(top, resolved_frequency(problem, threshold)))
+
+
+def resolved_frequency(problem: AeroelasticProblem, threshold: float) -> float:
+    """Return the reduced frequency up to which T holds on the ray p = k (i - threshold)."""
+    decay = problem.largest_decay / threshold if threshold > 0.0 else np.inf
+    return float(min(problem.highest_frequency, decay))
 
 
 def still_air_frequencies(problem: AeroelasticProblem) -> Real:

@@ -145,9 +145,15 @@ def still_air_roots(problem: AeroelasticProblem) -> StillAirRoots:
     return StillAirRoots(values[order], full, air.columns[columns])
 
 
-def resolved_speed(problem: AeroelasticProblem, eigenvalue: Complex) -> Real:
-    """Return the airspeed in m/s below which a root lies beyond what the problem holds for."""
-    return np.abs(eigenvalue.imag) * problem.half_chord / problem.highest_frequency
+def resolved_speed(
+    problem: AeroelasticProblem, eigenvalue: Complex, highest: float | None = None
+) -> Real:
+    """Return the airspeed in m/s below which a root lies beyond a highest reduced frequency.
+
+    By default that is what the problem holds for.
+    """
+    limit = problem.highest_frequency if highest is None else highest
+    return np.abs(eigenvalue.imag) * problem.half_chord / limit
 
 
 def advance(
@@ -297,11 +303,12 @@ def record(
     shape = (len(speeds), len(branches.speed))
     values, residual = np.full(shape, complex(np.nan, 0.0)), np.full(shape, np.nan)
     confidence, status = np.zeros(shape), np.zeros(shape, int)
+    first = np.broadcast_to(np.asarray(since, float), branches.speed.shape)
     for row, speed in enumerate(speeds):
-        ready = np.flatnonzero(speed >= since + 0.0 * branches.speed)
+        ready = np.flatnonzero(speed >= first)
         there = _advanced_apart(problem, branches.take(ready), float(speed))
         branches = _resolved(problem, branches.put(ready, there))
-        beyond = speed < np.maximum(since, resolved_speed(problem, branches.eigenvalue))
+        beyond = speed < np.maximum(first, resolved_speed(problem, branches.eigenvalue))
         alive = branches.alive & ~beyond
         values[row, alive] = branches.eigenvalue[alive]
         residual[row, alive] = branches.residual[alive]

@@ -38,13 +38,14 @@ def flutter_answer(case: Case) -> Answer:
     rows = case.rows(0)
     critical = case.analysis.critical
     index = case.analysis.points.index(critical) if critical is not None else None
+    already = case.analysis.unstable_from_start
     return {
         "fold": list(case.folds),
         "flutter_points": [_point(row) for row in rows],
         "critical": None if index is None else _point(rows[index]),
         "certified": case.analysis.certified,
         "valid_from": case.analysis.valid_from,
-        "unstable_from_start": max(case.analysis.unstable_from_start, 0),
+        "unstable_from_start": None if already < 0 else already,
         "uncertified_modes": list(case.uncertified_modes),
         "status": case.status.meaning,
         **({"warning": case.warning} if case.warning else {}),

@@ -8,12 +8,17 @@ import numpy as np
 
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.aeroelastic.wing import AeroelasticWing
+from foldwing.errors import InputError
 from foldwing.maths.arrays import Complex
 from foldwing.results.flutter_table import FlutterRow
-from foldwing.stability.flutter import FlutterAnalysis, find_flutter
+from foldwing.stability.flutter import FlutterAnalysis, find_flutter, lowest_resolved
 from foldwing.stability.status import FlutterPoint, Status
 from foldwing.structure.modes import StructuralModes
 from foldwing.studies.grid import radians
+
+CLEAR = 1.05
+"""A search beyond a positive threshold starts at this multiple of where all modes are resolved: in
+moving air they are a little faster than at rest."""
 
 
 @dataclass(frozen=True)
@@ -111,7 +116,27 @@ def solve_case(
     warning = model.warning(modes)
     system = model.system(modes)
     threshold = model.wing.analysis.damping_threshold
+    speed_range = _resolved_range(system, speed_range, threshold)
     return Case(folds, modes, system, find_flutter(system, speed_range, threshold), warning)
+
+
+def _resolved_range(
+    system: AeroelasticSystem, speed_range: tuple[float, float], threshold: float
+) -> tuple[float, float]:
+    """Return the airspeeds to search; with a positive threshold only those that resolve all modes.
+
+    A mode that comes into what the model resolves is damped by less than the threshold there: it
+    would be beyond the boundary without having crossed it.
+    """
+    slow, fast = speed_range
+    if threshold <= 0.0:
+        return speed_range
+    start = max(slow, CLEAR * float(lowest_resolved(system, threshold).max(initial=0.0)))
+    if start >= fast:
+        limit = f"the lattice resolves all modes at this threshold only from {start:.3g} m/s on"
+        remedy = "Take a shorter wake, fewer system_modes, or a higher --max-speed."
+        raise InputError("--damping-threshold", threshold, limit, remedy)
+    return start, fast
 
 
 def verdict_variables(cases: Sequence[Case | None]) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """Which airspeeds to look at when the user names none."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -42,7 +43,7 @@ def speed_range(model: AeroelasticWing, highest: float | None = None) -> tuple[f
         When ``highest`` is no airspeed.
     """
     check_highest(highest)
-    automatic = _automatic(model)
+    automatic = _automatic(replace(model, dropped=()))
     top = automatic if highest is None else highest
     return min(top, automatic) * LOWEST_FRACTION, top
 
