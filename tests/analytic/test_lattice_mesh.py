@@ -269,7 +269,7 @@ KEY
         ("wake = 5", "20 cm", "wing.segment[2].hinge.gap: got 0.2; gaps must leave some of the"),
         ("wake = 5", "-1 mm", "wing.segment[2].hinge.gap: got '-1 mm'; must be a length"),
         ("chordwise = 1000\nspanwise = 1000", "1 mm", "lattice.spanwise: got 1000; a lattice may"),
-        ("chordwise = 500\nwake = 10000", "1 mm", "lattice.wake: got 10000.0; the wake may have"),
+        ("chordwise = 300\nwake = 10000", "1 mm", "lattice.wake: got 10000.0; the wake may have"),
     ],
 )
 def test_bad_lattice(key, gap, words):

@@ -57,7 +57,13 @@ CASES = [
     (("modes", THREE, "--fold2", "0:1e9:1e-6"), "--fold2", "1e9", "at most 100000", "larger step"),
     (("modes", THREE, "--fold2", "0:1:1e-320"), "--fold2", "1e-320", "100000", "larger step"),
     (("boundary", THREE, *GRID), "--fold", "1002001", "at most 100000", "larger steps"),
-    (("flutter", THREE, "--fold2", "0:10:5"), "2=0:10:5", "one set", "not 3", "foldwing boundary"),
+    (
+        ("flutter", THREE, "--fold2", "0:10:5"),
+        "--fold2: got '0:10:5'",
+        "one set",
+        "not 3",
+        "foldwing boundary",
+    ),
     # --speeds
     (("flutter", THREE, "--speeds", "60:0:1"), "--speeds", "'60:0:1'", "start to stop", "0:60:1"),
     (("flutter", THREE, "--speeds", "0:60:-1"), "--speeds", "'0:60:-1'", "start to stop", "0:60:1"),
@@ -108,7 +114,12 @@ CASES = [
     (("boundary", THREE, "--measured", "no.csv"), "--measured", "no.csv", "No such", "level-tip"),
     (("modes", THREE, "--measured", "."), "--measured", "'.'", "can be read", "header has fold_2"),
     # convergence
-    (("convergence", THREE, "--fold2", "0:9:3"), "2=0:9:3", "convergence takes one", "not 4"),
+    (
+        ("convergence", THREE, "--fold2", "0:9:3"),
+        "--fold2: got '0:9:3'",
+        "convergence takes one",
+        "not 4",
+    ),
     (
         ("convergence", THREE, "--vary", "chord"),
         "--vary",

@@ -115,7 +115,7 @@ def test_folds_near_to_itself_carry_a_warning(cli):
         (("--panels", "8"), "--panels: got '8'; must be panels along the chord, x, strips"),
         (("--panels", "0x30"), "--panels: got 0; must be a whole number, 1 to 1000"),
         (("--panels", "8x2"), "--panels: got 2; must be at least one strip for each of 3"),
-        (("--panels", "999x999"), "--panels: got 999; a lattice may have 20000 panels"),
+        (("--panels", "999x999"), "--panels: got 999; a lattice may have 10000 panels"),
         (("--gap", "30 cm"), "--gap: got 0.3; gaps must leave some of the 0.14 m of segment 1"),
         (("--gap", "wide"), "--gap: got 'wide'; must be a length (m)"),
         (("--gap", "-1 mm"), "--gap: got '-1 mm'; must be a length (m)"),

@@ -131,7 +131,10 @@ Measured = Annotated[
 ]
 Trace = Annotated[
     bool,
-    typer.Option("--trace", help="Join the points into curves, followed exactly around turns."),
+    typer.Option(
+        "--trace",
+        help="Join the points into curves, followed exactly around turns. Slow with the lattice.",
+    ),
 ]
 Vary = Annotated[
     str | None,

@@ -101,10 +101,11 @@ class Request:
         """Return the fold angles in degrees when only one case is possible."""
         cases = self.cases(wing)
         if len(cases) > 1:
-            given = ", ".join(self.fold_of or [])
+            ranges = _by_hinge(self.fold_of or [])
+            hinge = next(hinge for hinge, text in ranges.items() if set(text) & {":", ","})
             limit = f"{command} takes one set of fold angles, not {len(cases)}"
             remedy = "Give one angle for each hinge, or use: foldwing boundary."
-            raise InputError("--fold-of", given, limit, remedy)
+            raise InputError(f"--fold{hinge}", ranges[hinge], limit, remedy)
         return cases[0]
 
 

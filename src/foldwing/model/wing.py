@@ -14,8 +14,8 @@ from foldwing.model.record import Record
 GAP = Quantity("a length", "m", '"1 mm"', Bounds(at_least=0.0))
 IMBALANCE = Quantity("a static imbalance", "", "0.1", Bounds(at_least=0.0))
 
-MOST_PANELS, MOST_ROWS = 20_000, 100_000
-"""Panels and wake rows beyond which a lattice would not fit into the memory of most machines."""
+MOST_PANELS, MOST_ROWS = 10_000, 100_000
+"""Panels and wake rows beyond which a lattice takes minutes and gigabytes."""
 
 _ROUND_OFF = 1e-9
 """Relative excess that a length may have by conversion of units alone."""
