@@ -186,7 +186,7 @@ def test_segments_folded_onto_each_other_are_refused(folds):
 
 def test_segments_almost_folded_onto_each_other_are_doubtful():
     model, modes, _ = lattice(THREE, 175.0, 0.0)
-    assert re.search("segments (1 and 2|2 and 1) come within 0.44 mm", model.warning(modes))
+    assert re.search("Segments (1 and 2|2 and 1) come within 0.44 mm", model.warning(modes))
     for folds in ((0.0, 0.0), (120.0, -120.0), (160.0, 0.0)):
         model, modes, _ = lattice(THREE, *folds)
         assert model.warning(modes) == ""

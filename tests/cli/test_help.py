@@ -44,6 +44,11 @@ def test_help_tells_the_defaults_in_words(cli):
     assert "divergence of the flat wing)" in words
 
 
+def test_help_tells_how_long_the_reference_takes(cli):
+    words = " ".join(re.findall(r"[\w(),-]+", cli("flutter", "--help").out))
+    assert "takes about a minute" in words
+
+
 def test_help_lists_every_command(cli):
     answer = cli("--help")
     assert answer.status == 0

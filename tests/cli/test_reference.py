@@ -75,6 +75,36 @@ def test_reference_writes_the_response_and_its_picture(cli, empty_folder):
     assert peaks.max() == pytest.approx(1.0, abs=0.1)
 
 
+def test_the_terminal_says_each_thing_on_its_own_line_and_the_fold_not_again(cli, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "500")
+    lines = cli(*REFERENCE, "--speeds", "4:16:4", "--no-plot").out.splitlines()
+    first = lines.index("The reference is never certified.")
+    assert lines[first - 1].startswith("After a tap at 16 m/s")
+    assert "does not resolve the modes" in lines[first + 1]
+    assert lines[first + 2].startswith("The reference follows each mode over 4 airspeeds")
+    assert "fold" not in " ".join(lines[: first + 3])
+
+
+def test_the_message_names_airspeeds_between_which_a_divergence_was_lost(cli, monkeypatch):
+    near = ("--speeds", "34:46:12", "--json")
+    found = cli(*REFERENCE, *near).json
+    assert "divergence" in [point["kind"] for point in found["flutter_points"]]
+    assert "real root" not in found["warning"]
+    monkeypatch.setattr("foldwing.studies.reference.divergence_crossing", lambda *ends: None)
+    lost = cli(*REFERENCE, *near).json
+    assert "divergence" not in [point["kind"] for point in lost["flutter_points"]]
+    assert "begins or ceases to grow between 34 and 46 m/s" in lost["warning"]
+
+
+def test_the_model_is_built_once(cli, monkeypatch):
+    from foldwing.studies import reference
+
+    built, build = [], reference.reference_model
+    monkeypatch.setattr(reference, "reference_model", lambda *a: built.append(a) or build(*a))
+    assert cli(*REFERENCE, "--speeds", "4:8:4", "--json").status == 0
+    assert len(built) == 1
+
+
 @pytest.mark.parametrize(("step", "panels"), [("0.0012", "2x6"), ("0.0005", "5x6")])
 def test_a_fixed_step_fits_the_panels_to_the_airspeed(cli, step, panels):
     near = ("--speeds", "16:24:4", "--json")

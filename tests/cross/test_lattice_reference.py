@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from foldwing.aeroelastic.reference import Reference
+from foldwing.aeroelastic.reference_flutter import GROWING, RealRoots, real_roots
 from foldwing.aeroelastic.reference_loci import advance, follow
 from foldwing.aeroelastic.reference_roots import roots_near
 from foldwing.aeroelastic.wing import AeroelasticWing
@@ -209,7 +210,59 @@ def test_every_crossing_of_the_sweep_but_mergers_is_found(name, folds, top):
         assert point.frequency == pytest.approx(other.frequency, rel=1e-8)
         if point.kind == "flutter":
             assert point.strength == pytest.approx(other.strength, rel=1e-3)
-            assert (point.mode, point.classification) == (other.mode, other.classification)
+            assert point.mode == other.mode
+            assert (point.classification == "hump") == (other.classification == "hump")
+
+
+def test_an_onset_whose_branch_is_still_unstable_at_the_end_has_no_class():
+    model, modes = wing_of(), modes_of()
+    swept = find_flutter(model.system(modes), (3.0, 80.0)).points
+    recovers = next(p for p in swept if p.event == "recovery" and p.kind == "flutter")
+    onset = next(p for p in swept if p.branch == recovers.branch and p.event == "onset")
+    for end, name in ((onset.speed + 2.0, ""), (recovers.speed + 2.0, "hump")):
+        found = solve_reference(Reference(model, modes), np.linspace(3.0, end, 10))
+        same = next(p for p in found.points if p.speed == pytest.approx(onset.speed, rel=1e-6))
+        assert same.classification == name
+
+
+@pytest.mark.parametrize(
+    ("speed", "threshold"), [(14.0, 0.0), (24.0, 0.0), (14.0, 0.02), (24.0, -0.02)]
+)
+def test_roots_beyond_the_boundary_at_the_lowest_airspeed_are_counted_as_by_the_sweep(
+    speed, threshold
+):
+    model, modes = wing_of(), modes_of()
+    swept = find_flutter(model.system(modes), (speed, speed + 4.0), threshold)
+    found = solve_reference(Reference(model, modes), np.array([speed]), threshold)
+    assert found.unstable_from_start == swept.unstable_from_start
+
+
+def without_neutral_roots(monkeypatch, below):
+    """Make the search for real roots around zero blind below an airspeed."""
+
+    def blind(reference, airspeed, shift=GROWING):
+        found = real_roots(reference, airspeed, shift)
+        kept = slice(0, 0) if shift != GROWING and airspeed < below else slice(None)
+        parts = (found.eigenvalue, found.residual, found.vectors)
+        return RealRoots(airspeed, *(part[kept] for part in parts))
+
+    monkeypatch.setattr("foldwing.aeroelastic.reference_flutter.real_roots", blind)
+
+
+@pytest.mark.parametrize("blind_until", [0.3, np.inf])
+def test_a_divergence_that_is_counted_but_not_found_is_named(monkeypatch, blind_until):
+    model, modes = wing_of(), modes_of()
+    swept = find_flutter(model.system(modes), (20.0, 80.0)).points
+    onset = next(p.speed for p in swept if p.kind == "divergence" and p.event == "onset")
+    ends = np.array([onset - 1.0, onset + 1.0])
+    reference = Reference(model, modes)
+    seen = solve_reference(reference, ends)
+    assert [p.speed for p in seen.points if p.kind == "divergence"] == pytest.approx([onset])
+    assert seen.missed == ()
+    without_neutral_roots(monkeypatch, onset + blind_until)
+    lost = solve_reference(reference, ends)
+    assert not [p for p in lost.points if p.kind == "divergence"]
+    assert lost.missed == (tuple(ends),)
 
 
 @pytest.mark.parametrize("threshold", [0.02, -0.02])

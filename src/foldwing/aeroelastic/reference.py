@@ -20,7 +20,7 @@ from scipy.sparse import csc_array
 
 from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.unsteady import PanelMotion
-from foldwing.aeroelastic.wing import AeroelasticWing
+from foldwing.aeroelastic.wing import AeroelasticWing, check_equal_chords
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Complex, Real
 from foldwing.structure.modes import StructuralModes
@@ -243,11 +243,13 @@ def coupled_lattice(model: AeroelasticWing, modes: StructuralModes) -> CoupledLa
 
 def check_reference(model: AeroelasticWing) -> None:
     """Raise `InputError` unless the wing has one chord and its lattice steps in time."""
-    if not model.equal_chords:
-        chords = ", ".join(f"{segment.chord:g} m" for segment in model.wing.segments)
-        limit = "the reference marches in steps of one panel and needs segments of equal chord"
-        raise InputError("wing.chord", chords, limit, "Take the sweep, which needs no steps.")
-    scheme = model.wing.lattice.scheme
+    chords = ", ".join(f"{segment.chord:g} m" for segment in model.wing.segments)
+    check_equal_chords(model.wing, "wing.chord", chords, "Take the sweep, which needs no steps.")
+    check_scheme(model.wing.lattice.scheme)
+
+
+def check_scheme(scheme: str) -> None:
+    """Raise `InputError` unless a scheme of the lattice is one of discrete time."""
     if scheme == "exact":
         limit = "the reference marches in time and needs a scheme of discrete time"
         raise InputError("lattice.scheme", scheme, limit, 'Take scheme = "average".')

@@ -4,12 +4,13 @@ Nothing is certified: two crossings of one mode between neighbouring airspeeds g
 """
 
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from scipy.optimize import brentq
 
 from foldwing.aeroelastic.reference import Reference
-from foldwing.aeroelastic.reference_loci import REAL, FollowedModes, advance
+from foldwing.aeroelastic.reference_loci import REAL, ModesAtSpeed, advance
 from foldwing.aeroelastic.reference_roots import CONVERGED, roots_near
 from foldwing.maths.arrays import Real
 from foldwing.stability.status import FlutterPoint, Status
@@ -28,20 +29,20 @@ GROWING, NEUTRAL, REAL_ROOTS = 0.15, 0.01, 10
 
 
 def flutter_crossings(
-    reference: Reference, below: FollowedModes, above: FollowedModes, threshold: float = 0.0
+    reference: Reference, below: ModesAtSpeed, above: ModesAtSpeed, threshold: float = 0.0
 ) -> list[FlutterPoint]:
     """Return where oscillating modes pass a damping ratio between two airspeeds.
 
     Parameters
     ----------
     reference : Reference
-    below, above : FollowedModes
+    below, above : ModesAtSpeed
         At neighbouring airspeeds.
     threshold : float
         Damping ratio, positive stable.
     """
     both = below.found & above.found & np.isfinite(below.eigenvalue) & np.isfinite(above.eigenvalue)
-    changed = (_beyond(below, threshold) > 0.0) != (_beyond(above, threshold) > 0.0)
+    changed = (beyond(below, threshold) > 0.0) != (beyond(above, threshold) > 0.0)
     points = (
         _crossing(reference, (below, above), int(mode), threshold)
         for mode in np.flatnonzero(both & changed)
@@ -49,14 +50,21 @@ def flutter_crossings(
     return [point for point in points if point is not None]
 
 
-def _beyond(state: FollowedModes, threshold: float) -> Real:
-    """Return how far each mode is beyond the boundary, in rad/s."""
+def beyond(state: ModesAtSpeed, threshold: float) -> Real:
+    """Return how far each mode is beyond the boundary, in rad/s, shape (n,).
+
+    Parameters
+    ----------
+    state : ModesAtSpeed
+    threshold : float
+        Damping ratio of the boundary, positive stable.
+    """
     return np.asarray(state.eigenvalue.real + threshold * np.abs(state.eigenvalue.imag))
 
 
 def _crossing(
     reference: Reference,
-    ends: tuple[FollowedModes, FollowedModes],
+    ends: tuple[ModesAtSpeed, ModesAtSpeed],
     mode: int,
     threshold: float,
 ) -> FlutterPoint | None:
@@ -66,7 +74,7 @@ def _crossing(
     try:
         speed = float(
             brentq(
-                lambda U: float(_beyond(path.at(U), threshold)[mode]),
+                lambda U: float(beyond(path.at(U), threshold)[mode]),
                 below.airspeed,
                 above.airspeed,
                 xtol=ACCURACY * above.airspeed,
@@ -80,7 +88,7 @@ def _crossing(
     ratio, further = (e.real / abs(e.imag) for e in (value, beside.eigenvalue[mode]))
     return FlutterPoint(
         kind="flutter",
-        event="onset" if _beyond(above, threshold)[mode] > 0.0 else "recovery",
+        event="onset" if beyond(above, threshold)[mode] > 0.0 else "recovery",
         speed=speed,
         p=complex(value * reference.model.half_chord / speed),
         frequency=float(abs(value.imag) / (2.0 * np.pi)),
@@ -97,7 +105,7 @@ class _Path:
     """One mode at any airspeed between two, each time from the nearest one known."""
 
     def __init__(
-        self, reference: Reference, ends: tuple[FollowedModes, FollowedModes], mode: int
+        self, reference: Reference, ends: tuple[ModesAtSpeed, ModesAtSpeed], mode: int
     ) -> None:
         one = np.arange(reference.modes.count) == mode
         self.reference = reference
@@ -106,7 +114,7 @@ class _Path:
             replace(end, status=np.where(one, end.status, int(Status.ABSENT))) for end in ends
         ]
 
-    def at(self, airspeed: float) -> FollowedModes:
+    def at(self, airspeed: float) -> ModesAtSpeed:
         nearest = min(self.known, key=lambda state: abs(state.airspeed - airspeed))
         if nearest.airspeed == airspeed:
             return nearest
@@ -161,26 +169,44 @@ def real_roots(reference: Reference, airspeed: float, shift: float = GROWING) ->
     return RealRoots(airspeed, found[moving], spectrum.residuals[order][moving], q[moving])
 
 
+def one_crosses(below: RealRoots, above: RealRoots) -> bool:
+    """Return whether one more real root grows at one of two airspeeds than at the other."""
+    return abs(above.growing - below.growing) == 1
+
+
 def divergence_crossing(
     reference: Reference, below: RealRoots, above: RealRoots
 ) -> FlutterPoint | None:
-    """Return where one more real root grows at the higher of two airspeeds, or one fewer."""
-    more = above.growing - below.growing
-    if abs(more) != 1:
+    """Return where one more real root grows at the higher of two airspeeds, or one fewer.
+
+    Returns
+    -------
+    FlutterPoint or None
+        None too when the roots nearest to zero do not show the crossing that the counts promise.
+    """
+    if not one_crosses(below, above):
         return None
     index = min(above.growing, below.growing)
 
+    @cache
+    def roots(airspeed: float) -> RealRoots:
+        return real_roots(reference, airspeed, NEUTRAL)
+
     def growth(airspeed: float) -> float:
-        values = real_roots(reference, airspeed, NEUTRAL).eigenvalue
+        values = roots(airspeed).eigenvalue
         return float(values[index]) if len(values) > index else -airspeed
 
     ends = (below.airspeed, above.airspeed)
+    if growth(ends[0]) * growth(ends[1]) > 0.0:
+        return None
     speed = float(brentq(growth, *ends, xtol=ACCURACY * ends[1], rtol=ACCURACY))
-    root = real_roots(reference, speed, NEUTRAL)
+    if abs(growth(speed)) > REAL * speed / reference.model.half_chord:  # a jump, not a zero
+        return None
+    root = roots(speed)
     energy = root.vectors[index] ** 2
     return FlutterPoint(
         kind="divergence",
-        event="onset" if more > 0 else "recovery",
+        event="onset" if growth(ends[1]) > growth(ends[0]) else "recovery",
         speed=speed,
         p=0.0 + 0.0j,
         frequency=0.0,

@@ -16,6 +16,7 @@ from foldwing.aeroelastic.reference import Marching, Reference
 from foldwing.aeroelastic.reference_roots import CONVERGED, roots_near
 from foldwing.maths.arrays import Complex, Indices, Mask, Real
 from foldwing.stability.status import Spectrum, Status
+from foldwing.stability.tracking import NEAR_REAL, SAME_ROOT
 
 LEAST_MAC = 0.6
 """Structural vectors of a mode at consecutive airspeeds must be at least this alike."""
@@ -29,12 +30,6 @@ HALVINGS = 3
 BESIDE = 1e-3
 """Relative distance of a shift from where a root is expected, which may be right."""
 
-SAME_ROOT = 1e-7
-"""Relative difference below which two modes have met on one root."""
-
-NEAR_REAL = 0.2
-"""A mode lost with |Im| below this fraction of its modulus has reached the real axis."""
-
 REAL = 1e-6
 """Share of Im in the modulus of a root below which it is real."""
 
@@ -46,7 +41,7 @@ ROOTS, TOLERANCE = 6, 1e-10
 
 
 @dataclass(frozen=True)
-class FollowedModes:
+class ModesAtSpeed:
     """Where n modes stand at one airspeed.
 
     Attributes
@@ -83,7 +78,7 @@ class FollowedModes:
         ahead = marching.airspeed - self.airspeed
         return np.asarray(marching.in_vacuo() + self.drift + self.slope * ahead)
 
-    def with_modes(self, chosen: Mask, other: "FollowedModes") -> "FollowedModes":
+    def with_modes(self, chosen: Mask, other: "ModesAtSpeed") -> "ModesAtSpeed":
         """Return these modes with the chosen ones as in another state."""
         names = ("eigenvalue", "drift", "slope", "residual", "confidence", "status")
         parts = {n: np.where(chosen, getattr(other, n), getattr(self, n)) for n in names}
@@ -91,11 +86,11 @@ class FollowedModes:
         return replace(self, vectors=vectors, **parts)
 
 
-def at_rest(omega: Real) -> FollowedModes:
+def at_rest(omega: Real) -> ModesAtSpeed:
     """Return the modes from which to begin: without air, each by itself; none without stiffness."""
     count = len(omega)
     zero = np.zeros(count)
-    return FollowedModes(
+    return ModesAtSpeed(
         airspeed=0.0,
         eigenvalue=np.full(count, np.nan + 0j),
         drift=zero + 0j,
@@ -107,7 +102,7 @@ def at_rest(omega: Real) -> FollowedModes:
     )
 
 
-def follow(reference: Reference, speeds: Real) -> Iterator[FollowedModes]:
+def follow(reference: Reference, speeds: Real) -> Iterator[ModesAtSpeed]:
     """Follow every mode over ascending airspeeds; give the modes at each as soon as it is done.
 
     Parameters
@@ -118,7 +113,7 @@ def follow(reference: Reference, speeds: Real) -> Iterator[FollowedModes]:
 
     Yields
     ------
-    FollowedModes
+    ModesAtSpeed
         A mode too fast for the steps at an airspeed is ``unresolved`` there and begins later; one
         that is lost stays lost.
     """
@@ -132,8 +127,8 @@ def follow(reference: Reference, speeds: Real) -> Iterator[FollowedModes]:
 
 
 def advance(
-    reference: Reference, state: FollowedModes, airspeed: float, halvings: int = HALVINGS
-) -> FollowedModes:
+    reference: Reference, state: ModesAtSpeed, airspeed: float, halvings: int = HALVINGS
+) -> ModesAtSpeed:
     """Return the modes at another airspeed."""
     marching = reference.at(airspeed)
     slow = reference.modes.omega * marching.step <= HIGHEST_PHASE
@@ -149,7 +144,7 @@ def advance(
     return _without_doubles(found.with_modes(lost, again))
 
 
-def _matched(marching: Marching, state: FollowedModes, slow: Mask) -> FollowedModes:
+def _matched(marching: Marching, state: ModesAtSpeed, slow: Mask) -> ModesAtSpeed:
     """Return every mode at the root near where it is expected whose vector is like its own."""
     expected, alone = state.expected(marching), marching.in_vacuo()
     unresolved = ~slow & np.isin(state.status, (Status.OK, Status.UNRESOLVED))
@@ -212,7 +207,7 @@ def _surroundings(marching: Marching, expected: complex) -> _Surroundings:
     return _Surroundings(shift, radius, values[kept], q, spectrum.residuals[kept])
 
 
-def _none_found(marching: Marching, state: FollowedModes, status: Indices) -> FollowedModes:
+def _none_found(marching: Marching, state: ModesAtSpeed, status: Indices) -> ModesAtSpeed:
     """Return the modes at a new airspeed before any is found: why they are not there."""
     count = len(state.status)
     with np.errstate(invalid="ignore"):
@@ -230,8 +225,8 @@ def _none_found(marching: Marching, state: FollowedModes, status: Indices) -> Fo
 
 
 def _with_root(
-    modes: FollowedModes, mode: int, root: _Root, before: FollowedModes, alone: complex
-) -> FollowedModes:
+    modes: ModesAtSpeed, mode: int, root: _Root, before: ModesAtSpeed, alone: complex
+) -> ModesAtSpeed:
     """Return the modes with one at a root."""
     one = np.arange(len(modes.status)) == mode
     drift = root.eigenvalue - alone
@@ -248,7 +243,7 @@ def _with_root(
     )
 
 
-def _without_doubles(modes: FollowedModes) -> FollowedModes:
+def _without_doubles(modes: ModesAtSpeed) -> ModesAtSpeed:
     """Mark the less alike of two modes that met on one root as collapsed."""
     status = modes.status.copy()
     value = modes.eigenvalue

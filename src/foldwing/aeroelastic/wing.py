@@ -70,14 +70,13 @@ class AeroelasticWing:
             remedy = f"The default is {AERODYNAMIC_MODELS[0]}."
             raise InputError("aerodynamics", self.aerodynamics, limit, remedy)
         scheme = self.wing.lattice.scheme
-        if self.aerodynamics == "lattice" and scheme != "exact" and not self.equal_chords:
-            limit = "a discrete-time scheme needs segments of equal chord"
-            raise InputError("lattice.scheme", scheme, limit, 'Take scheme = "exact".')
+        if self.aerodynamics == "lattice" and scheme != "exact":
+            check_equal_chords(self.wing, "lattice.scheme", scheme, 'Take scheme = "exact".')
 
     @property
     def equal_chords(self) -> bool:
         """Whether all segments have the same chord."""
-        return len({segment.chord for segment in self.wing.segments}) == 1
+        return have_equal_chords(self.wing)
 
     @cached_property
     def assembly(self) -> Assembly:
@@ -248,10 +247,29 @@ def strips_warning(strips: Strips, fold_angles: Sequence[float], image: bool) ->
         raise InputError("fold", _in_degrees(fold_angles), limit, remedy)
     if near.ratio < CLOSE:
         return (
-            f"{pair} come within {1e3 * near.distance:.2g} mm of each other, "
+            f"{pair.capitalize()} come within {1e3 * near.distance:.2g} mm of each other, "
             f"{near.ratio:.2g} widths of a strip: the lattice is inaccurate there."
         )
     return ""
+
+
+def have_equal_chords(wing: Wing) -> bool:
+    """Return whether all segments have the same chord."""
+    return len({segment.chord for segment in wing.segments}) == 1
+
+
+def check_equal_chords(wing: Wing, field: str, value: str, remedy: str) -> None:
+    """Raise `InputError` unless one step in time fits all chords.
+
+    Parameters
+    ----------
+    wing : Wing
+    field, value, remedy : str
+        What asks for discrete time, and what to do instead, for the message.
+    """
+    if not have_equal_chords(wing):
+        limit = "a discrete-time scheme needs segments of equal chord"
+        raise InputError(field, value, limit, remedy)
 
 
 def _panel_motion(component: ComponentModes, mesh: SegmentMesh, length: Real) -> PanelMotion:

@@ -120,14 +120,13 @@ def run_flutter(request: Request, output: Output) -> None:
 
     speeds = None if request.speeds is None else parse_speeds(request.speeds)
     check_highest(request.max_speed)
-    reference.check_method(request, wing, text)
+    model = reference.model_of(request, wing, text)
     folder = output.folder("flutter", request.model)
     source, highest = Source(text, request.options), request.max_speed
     with computing():
         if request.method == "reference":
-            dataset, answer = reference.solve(request, wing, folds, speeds, source)
+            dataset, answer = reference.solve(request, model, folds, speeds, source)
         else:
-            model = request.model_of(wing)
             dataset, case = flutter_study(
                 model, folds, speeds=speeds, highest=highest, source=source
             )

@@ -79,7 +79,7 @@ def show_convergence(dataset: "xarray.Dataset") -> None:
     for one in settings if rows else ():
         console.print(f"\nAirspeed in m/s against {TITLES[one.setting]}; * the model's own")
         console.print(_levels(one, rows))
-    for text in filter(None, (certificate(dataset), warnings(dataset))):
+    for text in filter(None, (certificate(dataset), *warnings(dataset))):
         console.print(tables.plain(f"\n{text}"))
 
 

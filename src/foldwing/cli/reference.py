@@ -16,36 +16,28 @@ if TYPE_CHECKING:
     from foldwing.results import Source
 
 
-def check_method(request: "Request", wing: Wing, text: str) -> None:
-    """Refuse combinations of options and models that the method cannot serve."""
+def model_of(request: "Request", wing: Wing, text: str) -> "AeroelasticWing":
+    """Return the wing with its aerodynamics, refusing what the method cannot serve."""
     if request.method != "reference":
         if request.time_step is not None:
             limit = "only the reference marches in time"
             remedy = "Add --aero lattice --method reference."
             raise InputError("--time-step", request.time_step, limit, remedy)
-        return
+        return request.model_of(wing)
     if request.aero != "lattice":
         limit = f"the reference is that of the vortex lattice, not of {request.aero} aerodynamics"
         raise InputError("--method", "reference", limit, "Add --aero lattice.")
-    if tomllib.loads(text).get("lattice", {}).get("scheme") == "exact":
-        limit = "the reference marches in time and needs a scheme of discrete time"
-        remedy = 'Leave it out of the model, or take scheme = "average".'
-        raise InputError("lattice.scheme", "exact", limit, remedy)
-    reference_of(request, wing)
-
-
-def reference_of(request: "Request", wing: Wing) -> "AeroelasticWing":
-    """Return the wing with a lattice that marches in time."""
-    from foldwing.aeroelastic.reference import check_time_step
+    from foldwing.aeroelastic.reference import check_scheme, check_time_step
     from foldwing.studies.reference import reference_model
 
+    check_scheme(tomllib.loads(text).get("lattice", {}).get("scheme", "average"))
     check_time_step(request.time_step)
     return reference_model(wing, tuple(request.drop_mode or ()))
 
 
 def solve(
     request: "Request",
-    wing: Wing,
+    model: "AeroelasticWing",
     folds: tuple[float, ...],
     speeds: Real | None,
     source: "Source",
@@ -57,7 +49,7 @@ def solve(
     total = SPEEDS if speeds is None else int((speeds > 0.0).sum())
     with tables.progress("Airspeeds", total) as advance:
         dataset = reference_study(
-            reference_of(request, wing),
+            model,
             folds,
             speeds=speeds,
             highest=request.max_speed,

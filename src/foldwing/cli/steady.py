@@ -87,7 +87,7 @@ def show_steady(dataset: "xarray.Dataset") -> None:
     if dataset.sizes["fold"] == 1:
         console.print("\nOn each segment")
         _print(console, segments_table(dataset))
-    for line in filter(None, (answer(dataset), warnings(dataset))):
+    for line in filter(None, (answer(dataset), *warnings(dataset))):
         console.print(f"\n{tables.plain(line)}")
 
 

@@ -87,7 +87,7 @@ def _conclude(console: Console, dataset: "xarray.Dataset") -> None:
     """Print what is certified and what is doubtful."""
     from foldwing.results.summary import certificate, response, warnings
 
-    for text in filter(None, (response(dataset), certificate(dataset), warnings(dataset))):
+    for text in filter(None, (response(dataset), certificate(dataset), *warnings(dataset))):
         console.print(plain(text))
 
 

@@ -141,7 +141,7 @@ def _section(number: int, picture: "Picture") -> str:
 
 
 def _certificate(dataset: "xarray.Dataset") -> list[str]:
-    texts = filter(None, (certificate(dataset), warnings(dataset)))
+    texts = filter(None, (certificate(dataset), *warnings(dataset)))
     return [f'<p class="small">{html.escape(text)}</p>' for text in texts]
 
 

@@ -33,6 +33,8 @@ def certificate(dataset: "xarray.Dataset") -> str:
     if "certified" not in dataset:
         failed = failed_cases(dataset)
         return f"Failed: {_case_list(dataset, failed)}." if failed else ""
+    if "response" in dataset:
+        return "The reference is never certified."
     failed, doubtful = failed_cases(dataset), uncertified_cases(dataset)
     total = dataset.sizes["fold"]
     good = total - len(doubtful) - len(failed)
@@ -236,20 +238,23 @@ def response(dataset: "xarray.Dataset") -> str:
     return f"After a tap at {attrs['speed']:.4g} m/s: {found}; the eigenvalue says {value}."
 
 
-def warnings(dataset: "xarray.Dataset") -> str:
+def warnings(dataset: "xarray.Dataset") -> list[str]:
     """Return what makes results doubtful, case by case: modes not resolved, remarks."""
-    if "message" not in dataset and "certified" not in dataset:
-        return ""
     parts = [_unresolved(dataset)]
     if "message" in dataset:
         failed = set(failed_cases(dataset))
         remarks = dataset["message"].values.tolist()
         parts += [
-            f"{fold_text(dataset, case) or 'This wing'}: {remark}"
+            _remark(dataset, case, remark)
             for case, remark in enumerate(remarks)
             if remark and case not in failed
         ]
-    return " ".join(filter(None, parts))
+    return [part for part in parts if part]
+
+
+def _remark(dataset: "xarray.Dataset", case: int, remark: str) -> str:
+    """Return a remark, with the fold angles when there are several cases."""
+    return f"{fold_text(dataset, case)}: {remark}" if dataset.sizes["fold"] > 1 else str(remark)
 
 
 def unresolved_below(dataset: "xarray.Dataset") -> "np.ndarray[tuple[int], np.dtype[np.float64]]":

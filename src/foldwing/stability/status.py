@@ -87,7 +87,7 @@ class FlutterPoint:
         Points of one root share this number; -1 when the branch is not known.
     classification : str
         ``hump`` when the same branch recovers within the range, ``coalescence`` otherwise, empty
-        for recoveries, divergence and mergers.
+        for recoveries, divergence and mergers, and where one cannot tell.
     mode : int
         Index of the still-air mode that the root starts from, or of the mode with the largest share
         of kinetic energy where the root does not lead to one (divergence, mergers).

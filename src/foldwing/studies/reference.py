@@ -14,14 +14,14 @@ import numpy as np
 from foldwing.aeroelastic.reference import Reference
 from foldwing.aeroelastic.reference_flutter import (
     RealRoots,
+    beyond,
     divergence_crossing,
     flutter_crossings,
+    one_crosses,
     real_roots,
 )
-from foldwing.aeroelastic.reference_loci import FollowedModes as ModesAtSpeed
-from foldwing.aeroelastic.reference_loci import follow
-from foldwing.aeroelastic.wing import AeroelasticWing
-from foldwing.errors import InputError
+from foldwing.aeroelastic.reference_loci import ModesAtSpeed, follow
+from foldwing.aeroelastic.wing import AeroelasticWing, check_equal_chords
 from foldwing.maths.arrays import Real
 from foldwing.model import Wing
 from foldwing.results.flutter_table import table_variables
@@ -55,6 +55,8 @@ WARNING = (
     "neighbouring ones, and mergers, go unseen."
 )
 
+MISSED = "A real root begins or ceases to grow between {:.4g} and {:.4g} m/s; where was not found."
+
 
 def reference_model(wing: Wing, dropped: tuple[str, ...] = ()) -> AeroelasticWing:
     """Return the wing with a lattice that marches in time: the model's scheme, or ``average``.
@@ -64,10 +66,8 @@ def reference_model(wing: Wing, dropped: tuple[str, ...] = ()) -> AeroelasticWin
     InputError
         When the chords differ: a step in time must fit all of them.
     """
-    if len({segment.chord for segment in wing.segments}) > 1:
-        limit = "the reference marches in steps of one panel and needs segments of equal chord"
-        remedy = "Use --method sweep, which needs no steps."
-        raise InputError("--method", "reference", limit, remedy)
+    remedy = "Use --method sweep, which needs no steps."
+    check_equal_chords(wing, "--method", "reference", remedy)
     if wing.lattice.scheme == "exact":
         wing = wing.with_lattice(scheme="average")
     return AeroelasticWing(wing, "lattice", dropped)
@@ -81,16 +81,23 @@ class ReferenceFlutter:
     ----------
     speeds : array, shape (u,)
         In m/s.
-    modes : tuple of FollowedModes, length u
+    modes : tuple of ModesAtSpeed, length u
     real : tuple of RealRoots, length u
     points : tuple of FlutterPoint
-        Ascending in airspeed.
+        Ascending in airspeed. An onset is a ``hump`` when its branch recovers at a higher airspeed
+        looked at, and has no class otherwise: the airspeeds end before one can tell.
+    threshold : float
+        Damping ratio of the boundary, positive stable.
+    missed : tuple of (float, float)
+        Airspeeds in m/s between which one more or one fewer real root grows without a point.
     """
 
     speeds: Real
     modes: tuple[ModesAtSpeed, ...]
     real: tuple[RealRoots, ...]
     points: tuple[FlutterPoint, ...]
+    threshold: float = 0.0
+    missed: tuple[tuple[float, float], ...] = ()
 
     @property
     def critical(self) -> FlutterPoint | None:
@@ -100,9 +107,10 @@ class ReferenceFlutter:
 
     @property
     def unstable_from_start(self) -> int:
-        """Number of growing roots at the lowest airspeed."""
-        first = self.modes[0].eigenvalue
-        return 2 * int((first[self.modes[0].found].real > 0.0).sum()) + self.real[0].growing
+        """Number of roots beyond the boundary at the lowest airspeed."""
+        first = self.modes[0]
+        outside = first.found & (beyond(first, self.threshold) > 0.0)
+        return 2 * int(outside.sum()) + self.real[0].growing
 
 
 def solve_reference(
@@ -115,27 +123,31 @@ def solve_reference(
     modes: list[ModesAtSpeed] = []
     real: list[RealRoots] = []
     points: list[FlutterPoint] = []
+    missed: list[tuple[float, float]] = []
     for state in follow(reference, speeds):
         modes.append(state)
         real.append(real_roots(reference, state.airspeed))
         for below, above in list(pairwise(modes))[-1:]:
             points += flutter_crossings(reference, below, above, threshold)
         for lower, higher in list(pairwise(real))[-1:]:
-            points += filter(None, [divergence_crossing(reference, lower, higher)])
+            crossing = divergence_crossing(reference, lower, higher)
+            points += filter(None, [crossing])
+            if crossing is None and one_crosses(lower, higher):
+                missed.append((lower.airspeed, higher.airspeed))
         if progress is not None:
             progress(len(modes))
     points.sort(key=lambda point: point.speed)
     named = tuple(_classified(point, points) for point in points)
-    return ReferenceFlutter(speeds, tuple(modes), tuple(real), named)
+    return ReferenceFlutter(speeds, tuple(modes), tuple(real), named, threshold, tuple(missed))
 
 
 def _classified(point: FlutterPoint, points: list[FlutterPoint]) -> FlutterPoint:
-    """Return a point with its class: a hump when its branch recovers later."""
+    """Return an onset as a hump when its branch recovers later; what else it is stays open."""
     if point.kind != "flutter" or point.event != "onset":
         return point
     later = [p for p in points if p.branch == point.branch and p.speed > point.speed]
     hump = any(p.event == "recovery" for p in later)
-    return replace(point, classification="hump" if hump else "coalescence")
+    return replace(point, classification="hump") if hump else point
 
 
 def reference_study(
@@ -264,7 +276,8 @@ def _verdict(found: ReferenceFlutter, names: tuple[str, ...], warning: str) -> V
     outside = np.array([modes.status == Status.UNRESOLVED for modes in found.modes])
     resolved = found.speeds[~outside.any(axis=1)]
     unresolved = [name for name, out in zip(names, outside[0], strict=True) if out]
-    message = " ".join(filter(None, [WARNING.format(count=len(found.speeds)), warning]))
+    gaps = (MISSED.format(*ends) for ends in found.missed)
+    message = " ".join(filter(None, [warning, WARNING.format(count=len(found.speeds)), *gaps]))
     fold = ("fold",)
     return {
         "certified": (fold, np.array([False])),
