@@ -80,7 +80,7 @@ def test_the_terminal_says_each_thing_on_its_own_line_and_the_fold_not_again(cli
     lines = cli(*REFERENCE, "--speeds", "4:16:4", "--no-plot").out.splitlines()
     first = lines.index("The reference is never certified.")
     assert lines[first - 1].startswith("After a tap at 16 m/s")
-    assert "does not resolve the modes" in lines[first + 1]
+    assert "modes drop out, the fastest first" in lines[first + 1]
     assert lines[first + 2].startswith("The reference follows each mode over 4 airspeeds")
     assert "fold" not in " ".join(lines[: first + 3])
 

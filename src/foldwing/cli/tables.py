@@ -188,7 +188,7 @@ def _angles(folds: Sequence[float]) -> str:
 
 def plain(text: str) -> str:
     """Return text whose minus signs every terminal can show."""
-    return text.replace("\N{MINUS SIGN}", "-")
+    return text.replace("\u2212", "-")
 
 
 def _say(text: str) -> None:

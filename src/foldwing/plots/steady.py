@@ -283,7 +283,7 @@ def _labels(dataset: "xarray.Dataset", case: int, x_range: Range, y_range: Range
     )
     for number, text in enumerate(filter(None, lines)):
         bold, below = text.startswith("fold"), -14.0 * number
-        words = text.replace("-", "\N{MINUS SIGN}")
+        words = text.replace("-", "\u2212")
         yield Note(x_range[1], y_range[1], words, baseline="top", dx=8, dy=below, bold=bold)
 
 
