@@ -703,3 +703,19 @@ def test_the_answer_of_a_convergence_study_names_what_is_not_good_enough():
     dataset["mesh_error_speed"].values[0] = math.nan
     dataset["error_speed"].values[2, 0] = math.nan
     assert "not known: it is not found at every finer span" in results.answer(dataset)
+    dataset["convergence"] = dataset["convergence"].astype("<U12")
+    dataset["convergence"].values[2, 0] = "diverging"
+    assert "not known: it changes more and more with a finer span" in results.answer(dataset)
+    dataset["error_speed"].values[0, 0] = math.nan
+    dataset["convergence"].values[0, 0] = "few"
+    wanted = "too few levels of the chord, and it changes more and more with a finer span"
+    assert wanted in results.answer(dataset)
+
+
+def test_a_sequence_without_a_limit_is_drawn_relative_to_its_finest_value():
+    dataset = datasets.convergence_dataset()
+    finest = dataset["level_speed"].values[3, 0]
+    dataset["limit_speed"].values[0, 0] = math.nan
+    curve = plots.static_figures(dataset)["convergence"].axes[0].lines[2]
+    wanted = 100.0 * (dataset["level_speed"].values[:4, 0] / finest - 1.0)
+    assert curve.get_ydata() == pytest.approx(wanted)
