@@ -98,7 +98,7 @@ def flutter_circulation(dataset: "xarray.Dataset") -> Picture | None:
     return Picture(
         "flutter-circulation",
         "Circulation of the air around the wing as flutter begins",
-        _caption(dataset, "circulation") + " It is that of each strip, summed along its chord; "
+        _caption(dataset, "circulation") + " Shown is the sum along the chord of each strip; "
         "positive circulation lifts.",
         [Panel(x_label, "circulation (m²/s)", upper, x_range, (0.0, top or 1.0)), below],
     )
