@@ -141,3 +141,9 @@ def test_the_colours_of_an_angle_end_as_they_start(theme):
     cycle = color_map("cycle", THEMES[theme])
     assert cycle(0.0) == cycle(1.0)
     assert len({cycle(turn) for turn in (0.0, 0.25, 0.5, 0.75)}) == 4
+
+
+def test_the_caption_of_the_circulation_speaks_of_circulation(lattice):
+    caption = loads_among(lattice)["flutter-circulation"].caption
+    assert "the circulation is highest" in caption
+    assert "pressure" not in caption

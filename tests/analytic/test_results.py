@@ -20,7 +20,7 @@ from foldwing.errors import OutputError
 from foldwing.plots.determinant import crossings
 from foldwing.plots.interactive import figure as plotly_figure
 from foldwing.plots.palette import THEMES
-from foldwing.plots.picture import spread
+from foldwing.plots.picture import Line, Panel, Picture, spread
 from foldwing.plots.static import draw
 from foldwing.stability.status import Status
 from support import datasets
@@ -703,3 +703,30 @@ def test_the_answer_of_a_convergence_study_names_what_is_not_good_enough():
     dataset["mesh_error_speed"].values[0] = math.nan
     dataset["error_speed"].values[2, 0] = math.nan
     assert "not known: it is not found at every finer span" in results.answer(dataset)
+    dataset["convergence"] = dataset["convergence"].astype("<U12")
+    dataset["convergence"].values[2, 0] = "diverging"
+    assert "not known: it changes more and more with a finer span" in results.answer(dataset)
+    dataset["error_speed"].values[0, 0] = math.nan
+    dataset["convergence"].values[0, 0] = "few"
+    wanted = "too few levels of the chord, and it changes more and more with a finer span"
+    assert wanted in results.answer(dataset)
+
+
+def test_a_sequence_without_a_limit_is_drawn_relative_to_its_finest_value():
+    dataset = datasets.convergence_dataset()
+    finest = dataset["level_speed"].values[3, 0]
+    dataset["limit_speed"].values[0, 0] = math.nan
+    curve = plots.static_figures(dataset)["convergence"].axes[0].lines[2]
+    wanted = 100.0 * (dataset["level_speed"].values[:4, 0] / finest - 1.0)
+    assert curve.get_ydata() == pytest.approx(wanted)
+
+
+@pytest.mark.parametrize(("length", "columns"), [(10, 3), (40, 2), (70, 1)])
+def test_a_legend_of_long_labels_stays_on_the_page(length, columns):
+    x = np.array([0.0, 1.0])
+    lines = [Line(x, x, "ink", label=f"{n}".ljust(length, "o")) for n in range(5)]
+    figure = draw(Picture("name", "Title", "Caption.", [Panel("x", "y", lines)]))
+    box = figure.legends[0].get_window_extent(figure.canvas.get_renderer())
+    assert box.x1 <= figure.bbox.x1
+    assert figure.legends[0]._ncols == columns
+    assert box.y1 < figure.axes[0].get_window_extent().y0

@@ -120,3 +120,21 @@ def test_strips_halved_towards_a_gap_converge():
     circulation, lift = zip(*values, strict=True)
     assert circulation[2] < 0.25 * circulation[0]
     assert abs(lift[2] - lift[1]) < 0.1 * abs(lift[1] - lift[0])
+
+
+def test_spacings_agree_on_the_efficiency_or_give_none():
+    wing = read_model("three-segment")
+    folds = np.radians((30.0, -75.0))
+    for angles in (np.zeros(2), folds):
+        uniform, inset, cosine = (
+            wing_loads(wing.with_lattice(spacing=spacing), angles, 0.1, 1.0)
+            for spacing in ("uniform", "inset", "cosine")
+        )
+        assert inset.efficiency == pytest.approx(uniform.efficiency, rel=0.01)
+        assert np.isnan([cosine.efficiency, cosine.least_drag]).all()
+    plain = read_model("goland")
+    alone = [
+        wing_loads(plain.with_lattice(spacing=spacing), (), 0.1, 1.0).efficiency
+        for spacing in ("uniform", "cosine")
+    ]
+    assert alone[1] == pytest.approx(alone[0], rel=0.01)

@@ -96,7 +96,7 @@ def test_strip_theory_varies_the_modes_alone(cli):
 
 
 def test_a_wing_without_flutter_has_nothing_to_converge(cli):
-    levels = ("--vary", "system-modes", "--levels", "system-modes=8")
+    levels = ("--vary", "system-modes", "--levels", "system-modes=8,10")
     answer = cli("convergence", "goland", "--max-speed", "20", *levels, "--out", "a")
     assert answer.status == 0
     assert "nothing to converge" in answer.out
@@ -169,3 +169,22 @@ def test_a_costly_level_is_left_out():
         if one.setting == "chordwise"
     ]
     assert counts == [8, 16, 32, 64]
+
+
+def test_fewer_than_three_levels_are_refused_before_computing(cli, monkeypatch):
+    monkeypatch.setattr(convergence, "solve_case", None)
+    for levels, own in (("chordwise=4", 4), ("chordwise=8", 4), ("spanwise=9,18", 9)):
+        answer = cli(*CHEAP, "--vary", levels.split("=")[0], "--levels", levels)
+        assert (answer.status, answer.out) == (2, "")
+        wanted = f"got '{levels}'; at least 3 levels are needed, the model's own {own} among them"
+        assert wanted in " ".join(answer.err.split())
+
+
+@pytest.mark.parametrize(("bending", "torsion"), [(12, 6), (6, 12), (10, 10), (40, 5)])
+def test_bending_and_torsion_modes_keep_their_proportion(bending, torsion):
+    wing = read_model("goland").with_analysis(bending_modes=bending, torsion_modes=torsion)
+    found = variants(AeroelasticWing(wing, "strip"), ("segment-modes",))
+    assert sum(one.own for one in found) == 1
+    for one in found:
+        analysis = one.wing.analysis
+        assert analysis.bending_modes * torsion == analysis.torsion_modes * bending

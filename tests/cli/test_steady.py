@@ -4,7 +4,7 @@ import csv
 
 import pytest
 
-from foldwing.model import read_model
+from foldwing.model import example_text, read_model
 from foldwing.results import read_dataset
 from foldwing.studies.steady import steady_study
 
@@ -157,3 +157,34 @@ def test_the_run_can_be_repeated(cli, empty_folder):
     assert (attrs["kind"], attrs["alpha"], attrs["image"]) == ("steady", 3.0, 1)
     for text in ('"alpha": 3.0', '"gap": "2 mm"', '"image": true', '"panels": "2x9"'):
         assert text in attrs["options"]
+
+
+def test_cosine_spacing_gives_no_efficiency_and_says_why(cli):
+    (case,) = cli("steady", THREE, "--spacing", "cosine", "--json").json["cases"]
+    assert case["loads"][0]["efficiency"] is case["loads"][0]["least_drag"] is None
+    assert case["loads"][0]["induced_drag"] > 0.0
+    assert "not known with cosine spacing" in case["message"]
+
+
+def test_the_closed_wing_is_checked_too(cli):
+    fold = ("--fold", "170,0", "--gap", "1 cm", "--panels", "2x30")
+    (case,) = cli("steady", THREE, *fold, "--json").json["cases"]
+    assert "Gaps closed: segments 2 and 1 come within" in case["message"]
+
+
+def test_a_free_hinge_is_held(cli, empty_folder):
+    text = example_text(THREE)
+    line = next(part for part in text.splitlines() if "fold = -30" in part)
+    path = empty_folder / "free.toml"
+    path.write_text(text.replace(line, "hinge = { free = true, fold = -30 }"), encoding="utf-8")
+    (case,) = cli("steady", str(path), "--json").json["cases"]
+    assert case["message"] == "Hinge 3 is free: the wing is held in its shape."
+
+
+def test_angles_stay_on_one_line_and_hinges_are_explained_where_there_are_any(cli):
+    fold = ("--fold2", "-112.5,112.5", "--fold3", "120", "--gap", "1 mm")
+    answer = cli("steady", THREE, *fold, "--no-plot", "--out", "a")
+    assert answer.out.count("\n-112.5°, 120°  ") == 2
+    assert "…" not in answer.out
+    assert "hinge moments" in " ".join(answer.out.split())
+    assert "hinge moments" not in cli("steady", "goland", "--no-plot", "--out", "b").out

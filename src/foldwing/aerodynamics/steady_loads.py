@@ -13,7 +13,7 @@ from foldwing.maths.rotations import rotation_about_x
 from foldwing.model import Segment, Wing
 
 NO_FORCE = 1e-9
-"""Share of the largest force of a segment below which a centre of pressure means nothing."""
+"""Share of the sum of the sizes of all forces below which a centre of pressure means nothing."""
 
 
 @dataclass(frozen=True)
@@ -87,9 +87,10 @@ class WingLoads:
     lift, side_force : float
         Along z and y.
     induced_drag, least_drag : float
-        In the Trefftz plane, and the least of this shape for this lift.
+        In the Trefftz plane, and the least of this shape for this lift; nan unless
+        `least_drag_known`.
     efficiency : float
-        Their ratio, at most 1.
+        Their ratio, at most 1; nan when the least drag is not known.
     pitching_moment : float
         About the elastic axis at the root, nose up.
     root_moment : float
@@ -150,6 +151,7 @@ def wing_loads(wing: Wing, folds: Sequence[float], alpha: float, speed: float) -
     pressure = wing.air.density * speed**2
     area = sum(segment.area for segment in wing.segments)
     moment = unit.moment(frames.origins[0])
+    known = least_drag_known(wing)
     return WingLoads(
         lattice=lattice,
         lift_slope=lift_slope(unit, area),
@@ -159,14 +161,24 @@ def wing_loads(wing: Wing, folds: Sequence[float], alpha: float, speed: float) -
         lift=pressure * float(lattice.total[2]),
         side_force=pressure * float(lattice.total[1]),
         induced_drag=pressure * lattice.induced_drag,
-        least_drag=pressure * lattice.least_drag,
-        efficiency=unit.efficiency,
+        least_drag=pressure * lattice.least_drag if known else np.nan,
+        efficiency=unit.efficiency if known else np.nan,
         pitching_moment=pressure * alpha * float(moment[1]),
         root_moment=pressure * alpha * float(moment[0]),
         aerodynamic_centre=_aerodynamic_centre(wing, unit, float(moment[1])),
         segments=_segment_loads(wing, unit, frames, pressure * alpha),
         hinge_moments=_hinge_moments(wing, unit, frames, pressure * alpha),
     )
+
+
+def least_drag_known(wing: Wing) -> bool:
+    """Return whether the least of the drag of its strips is that of the wing.
+
+    Where strips narrow towards a hinge or a wall, the drag of the lattice is inaccurate for
+    circulations that bend there; their minimum is too small, and refining does not help.
+    """
+    bends = wing.count > 1 or wing.lattice.image
+    return wing.lattice.spacing != "cosine" or not bends
 
 
 def _projected_area(wing: Wing, frames: Frames) -> float:
@@ -205,7 +217,7 @@ def _loads_on(
 ) -> SegmentLoads:
     normal, (_, side, lift) = float(part.total @ A[:, 2]), part.total.tolist()
     bending, pitching, _ = (A.T @ part.moment(origin)).tolist()
-    acts = abs(normal) > NO_FORCE * np.abs(part.forces).max(initial=0.0)
+    acts = abs(normal) > NO_FORCE * np.abs(part.forces).sum()
     return SegmentLoads(
         normal_force=factor * normal,
         lift=factor * lift,

@@ -92,7 +92,7 @@ def _summary(
     heads = [_HEADS[one.setting] for one in settings]
     table = tables.new_table("U m/s", "f Hz", "what", *(["Limit", "Mesh"] if whole else []), *heads)
     for point, row in enumerate(rows):
-        total = [_speed(limit[point]), _percent(mesh[point], row.speed)] if whole else []
+        total = [_limit(limit[point]), _percent(mesh[point], row.speed)] if whole else []
         parts = [_percent(one.error[point], row.speed) for one in settings]
         cells = (f"{row.speed:.2f}", f"{row.frequency:.2f}", _what(row))
         table.add_row(*cells, *total, *parts)
@@ -110,7 +110,7 @@ _HEADS = {
 }
 
 
-_SHORT = {"oscillating": "osc.", "scattered": "none"}
+_SHORT = {"oscillating": "osc.", "scattered": "none", "diverging": "grows"}
 
 
 def _levels(one: "Levels", rows: "list[FlutterRow]") -> Table:
@@ -122,7 +122,7 @@ def _levels(one: "Levels", rows: "list[FlutterRow]") -> Table:
             _what(row),
             *(_speed(speed) for speed in one.speed[:, point]),
             order or _SHORT.get(one.verdict[point], one.verdict[point]),
-            _speed(one.limit[point]),
+            _limit(one.limit[point]),
             _percent(one.error[point], row.speed),
         )
     return table
@@ -136,6 +136,10 @@ def _what(row: "FlutterRow") -> str:
 
 def _speed(value: float) -> str:
     return f"{value:#.5g}" if value == value else "missing"
+
+
+def _limit(value: float) -> str:
+    return f"{value:#.5g}" if value == value else "?"
 
 
 def _percent(error: float, speed: float) -> str:

@@ -73,7 +73,7 @@ def run_steady(request: SteadyRequest, output: Output) -> None:
 
 def show_steady(dataset: "xarray.Dataset") -> None:
     """Print the loads of every case, those of the segments of a single one, and the answer."""
-    from foldwing.results.steady_table import LEGEND, loads_table, segments_table
+    from foldwing.results.steady_table import legend, loads_table, segments_table
     from foldwing.results.summary import answer, warnings
 
     console = Console(highlight=False)
@@ -83,7 +83,7 @@ def show_steady(dataset: "xarray.Dataset") -> None:
         f"the developed area, {attrs['reference_area']:.4g} m2"
     )
     _print(console, loads_table(dataset))
-    console.print(LEGEND)
+    console.print(legend(dataset))
     if dataset.sizes["fold"] == 1:
         console.print("\nOn each segment")
         _print(console, segments_table(dataset))
@@ -92,7 +92,9 @@ def show_steady(dataset: "xarray.Dataset") -> None:
 
 
 def _print(console: Console, table: "Table") -> None:
-    printed = tables.new_table(*table.heads)
+    printed = tables.new_table(*(head.replace(" ", "\n", 1) for head in table.heads))
+    for column in printed.columns:
+        column.no_wrap = column.header != "fold"  # it wraps where nothing else would fit
     for row in table.rows:
         printed.add_row(*(tables.plain(cell) for cell in row))
     console.print(printed)

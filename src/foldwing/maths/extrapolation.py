@@ -24,6 +24,9 @@ SETTLED = 1e-8
 _STEEPEST = 40.0
 """Largest order that is looked for."""
 
+_NO_ORDER = 1e-6
+"""Order up to which differences count as growing: that of equal ones is 0 but for rounding."""
+
 
 @dataclass(frozen=True)
 class Convergence:
@@ -33,15 +36,17 @@ class Convergence:
     ----------
     verdict : str
         ``monotone``: an order was found and the limit is extrapolated; ``settled``: the finest
-        values agree; ``oscillating``, ``slow`` (an order below 0.5, or growing differences) and
+        values agree; ``oscillating``, ``slow`` (an order below 0.5), ``steep`` (above 4) and
         ``scattered`` (no power law is expected): the limit is the finest value and the error bar
-        follows from the spread; ``few``: fewer than three values.
+        follows from the spread; ``diverging``: differences do not become smaller, limit and error
+        bar are unknown; ``few``: fewer than three values.
     order : float
         Observed order, nan where none was found.
     limit : float
-        Best estimate of the limit, in the unit of the values.
+        Best estimate of the limit, in the unit of the values; nan where there is none.
     error : float
-        Error bar of the value in question, positive, in the unit of the values.
+        Error bar of the value in question, positive, in the unit of the values; nan where it is
+        not known.
     """
 
     verdict: str
@@ -77,9 +82,12 @@ def assess(size: Real, values: Real, own: float, *, power_law: bool = True) -> C
     order = observed_order(size[-3:], values[-3:])
     if np.isnan(order):
         return Convergence("oscillating", np.nan, finest, SAFETY * spread)
-    if order < LOWEST_ORDER:
-        return Convergence("slow", order, finest, DOUBTFUL_SAFETY * spread)
-    limit = extrapolated(size[-2:], values[-2:], min(order, HIGHEST_ORDER))
+    if order <= _NO_ORDER:
+        return Convergence("diverging", order, np.nan, np.nan)
+    if not LOWEST_ORDER <= order <= HIGHEST_ORDER:
+        verdict = "slow" if order < LOWEST_ORDER else "steep"
+        return Convergence(verdict, order, finest, DOUBTFUL_SAFETY * spread)
+    limit = extrapolated(size[-2:], values[-2:], order)
     return Convergence("monotone", order, limit, SAFETY * abs(limit - own))
 
 

@@ -48,7 +48,8 @@ def convergence(dataset: "xarray.Dataset") -> Picture | None:
 
 
 def _panel(one: Levels, rows: list[FlutterRow]) -> Panel:
-    relative = 100.0 * (one.speed / one.limit - 1.0)
+    limit = np.where(np.isnan(one.limit), one.speed[-1], one.limit)
+    relative = 100.0 * (one.speed / limit - 1.0)
     x = one.values
     log = bool(x[0] > 0.0)
     x_range = (float(x[0]) / 1.12, float(x[-1]) * 1.12)

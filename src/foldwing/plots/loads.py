@@ -98,18 +98,18 @@ def flutter_circulation(dataset: "xarray.Dataset") -> Picture | None:
     return Picture(
         "flutter-circulation",
         "Circulation of the air around the wing as flutter begins",
-        _caption(dataset) + " The circulation is that of each strip, summed along its chord; "
+        _caption(dataset, "circulation") + " Shown is the sum along the chord of each strip; "
         "positive circulation lifts.",
         [Panel(x_label, "circulation (m²/s)", upper, x_range, (0.0, top or 1.0)), below],
     )
 
 
-def _caption(dataset: "xarray.Dataset") -> str:
+def _caption(dataset: "xarray.Dataset", what: str = "pressure") -> str:
     amplitude = 1000.0 * float(dataset["pressure"].attrs["amplitude"])
     return (
         subtitle(dataset, fold_text(dataset, 0))
         + f". For a motion with a largest displacement of {amplitude:.3g} mm. Phase is relative to "
-        "that displacement: at 0° the pressure is highest when it is largest, at 90° a quarter of "
+        f"that displacement: at 0° the {what} is highest when it is largest, at 90° a quarter of "
         "a cycle before, at −90° after."
     )
 

@@ -12,7 +12,7 @@ from foldwing.plots.interactive import figure
 from foldwing.plots.palette import THEMES
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
-from foldwing.results.steady_table import LEGEND, loads_table, segments_table
+from foldwing.results.steady_table import legend, loads_table, segments_table
 from foldwing.results.summary import answer, certificate, degrees, fold_text, warnings
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ def _loads(dataset: "xarray.Dataset") -> list[str]:
     first = fold_text(dataset, 0)
     return [
         "<h2>Steady loads</h2>",
-        f'<p class="small">{html.escape(LEGEND)}</p>',
+        f'<p class="small">{html.escape(legend(dataset))}</p>',
         f'<div class="scroll">{_html(*loads_table(dataset))}</div>',
         f"<h2>On each segment{f', {first}' if first else ''}</h2>",
         f'<div class="scroll">{_html(*segments_table(dataset))}</div>',

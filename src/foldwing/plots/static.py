@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
+from matplotlib.textpath import TextPath
 
 from foldwing.plots.layout import PANEL_INCHES
 from foldwing.plots.palette import THEMES
@@ -40,6 +41,8 @@ from foldwing.plots.static_base import (
 from foldwing.plots.static_scenes import draw_scenes
 
 _LEFT, _BOTTOM, _GAP, _ROW_GAP = 0.88, 0.52, 0.18, 0.62
+_LEGEND_POINTS, _POINTS, _HANDLE = 8.5, 72.0, 0.5
+"""Size of the text of a legend, points of an inch, and what a column needs besides its text."""
 Box = tuple[float, float, float, float]
 _DASHES: Mapping[str, Any] = {"solid": "-", "dash": (0, (5, 2)), "dot": (0, (1.2, 1.6))}
 _MARKERS = {
@@ -71,7 +74,7 @@ def draw(picture: Picture, theme: str = "light") -> Figure:
     legend = _legend(panels, colors)
     caption = wrapped(picture.caption)
     head = 0.36 + LINE * len(caption) + 0.16
-    foot = _BOTTOM + LINE * -(-len(legend) // 3) + (0.12 if legend else 0.0)
+    foot = _BOTTOM + LINE * -(-len(legend) // _columns(legend)) + (0.12 if legend else 0.0)
     boxes, inner = _boxes(panels, picture)
     total = head + inner + foot
     figure = new_figure(WIDTH, total, colors)
@@ -316,15 +319,22 @@ def _handle(item: Any, colors: Colors) -> Any:
     return Patch(facecolor=colors[item.color], alpha=getattr(item, "opacity", 1.0))
 
 
+def _columns(legend: dict[str, Any]) -> int:
+    """Return how many columns fit beside each other, at most three."""
+    widths = (TextPath((0.0, 0.0), label, size=_LEGEND_POINTS).get_extents().x1 for label in legend)
+    column = max(widths, default=0.0) / _POINTS + _HANDLE
+    return max(1, min(3, len(legend), int((WIDTH - _LEFT) / column)))
+
+
 def _add_legend(figure: Figure, legend: dict[str, Any], colors: Colors) -> None:
     box = figure.legend(
         list(legend.values()),
         list(legend),
         loc="lower left",
         bbox_to_anchor=(_LEFT / WIDTH, 0.04 / figure.get_figheight()),
-        ncols=min(3, len(legend)),
+        ncols=_columns(legend),
         frameon=False,
-        fontsize=8.5,
+        fontsize=_LEGEND_POINTS,
         labelcolor=colors["ink"],
         columnspacing=1.6,
         handletextpad=0.5,

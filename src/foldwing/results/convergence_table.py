@@ -29,6 +29,13 @@ TITLES: Mapping[str, str] = {
 
 _PARTS = {"chordwise": "chord", "spanwise": "span", "wake": "wake"}
 
+_UNKNOWN = {
+    "missing": "it is not found at every finer",
+    "diverging": "it changes more and more with a finer",
+    "few": "there are too few levels of the",
+}
+"""Why an error bar is not known, before the part of the mesh."""
+
 
 @dataclass(frozen=True)
 class Levels:
@@ -127,12 +134,14 @@ def _mesh_answer(
 
 def _reason(dataset: "xarray.Dataset", point: int, relative: float) -> str:
     """Return the error bar and the setting that has most of it."""
-    parts = {
-        _PARTS[one.setting]: float(one.error[point])
-        for one in levels_by_setting(dataset)
-        if one.setting in _PARTS
-    }
-    unknown = [name for name, error in parts.items() if np.isnan(error)]
+    mesh = [one for one in levels_by_setting(dataset) if one.setting in _PARTS]
+    parts = {_PARTS[one.setting]: float(one.error[point]) for one in mesh}
+    unknown: dict[str, list[str]] = {}
+    for one in mesh:
+        if np.isnan(one.error[point]):
+            why = _UNKNOWN.get(one.verdict[point], _UNKNOWN["missing"])
+            unknown.setdefault(why, []).append(_PARTS[one.setting])
     if unknown:
-        return f"not known: it is not found at every finer {' and '.join(unknown)}"
+        reasons = (f"{why} {' and '.join(names)}" for why, names in unknown.items())
+        return f"not known: {', and '.join(reasons)}"
     return f"{100.0 * relative:.3g} %, most of it from the {max(parts, key=lambda n: parts[n])}"

@@ -25,11 +25,11 @@ PER_SEGMENT = (
 )  # fmt: skip
 """Loads on each segment; in the dataset their names begin with ``segment_``."""
 
-
-LEGEND = (
+_LEGEND = (
     "Eff.: least over actual induced drag (Di) of this shape. A.c.: aerodynamic centre in % of the "
-    "root chord. M2, M3 ...: hinge moments, positive folding up."
+    "root chord."
 )
+_HINGE_LEGEND = " M2, M3 ...: hinge moments, positive folding up."
 
 
 class Table(NamedTuple):
@@ -67,6 +67,11 @@ def loads_table(dataset: "xarray.Dataset") -> Table:
             )
             rows.append((*fold, *[state][: len(gaps) - 1], *numbers))
     return Table(heads, rows)
+
+
+def legend(dataset: "xarray.Dataset") -> str:
+    """Return what the heads of `loads_table` mean."""
+    return _LEGEND + (_HINGE_LEGEND if dataset.sizes["hinge"] else "")
 
 
 def segments_table(dataset: "xarray.Dataset", case: int = 0) -> Table:

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.aeroelastic.wing import AeroelasticWing
-from foldwing.errors import FoldwingError
 from foldwing.results.flutter_table import table_variables
 from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.status import Status
 from foldwing.structure.following import FollowedModes, follow_modes
 from foldwing.studies.case import Case, solve_case, verdict_variables
+from foldwing.studies.failures import NUMERICAL_FAILURES
 from foldwing.studies.flutter import METHODS, search_attributes
 from foldwing.studies.grid import radians, swept_hinge
 from foldwing.studies.measured import Measured
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
     import xarray
 
 Variables = dict[str, Any]
-
-NUMERICAL_FAILURES = (ArithmeticError, np.linalg.LinAlgError, ValueError, FoldwingError)
-"""What a hopeless case may raise: it becomes part of the result."""
 
 
 @dataclass(frozen=True)

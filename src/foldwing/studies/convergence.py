@@ -13,8 +13,8 @@ from foldwing.results.flutter_table import FlutterRow, table_variables
 from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.status import Status
-from foldwing.studies.boundary import NUMERICAL_FAILURES
 from foldwing.studies.case import Case, solve_case, verdict_variables
+from foldwing.studies.failures import NUMERICAL_FAILURES
 from foldwing.studies.flutter import METHODS, search_attributes
 from foldwing.studies.matching import likeness, match_points
 from foldwing.studies.modes import fold_coordinates

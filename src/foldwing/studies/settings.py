@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from foldwing.aerodynamics.lattice import strips_by_segment
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.model import Wing
+from foldwing.model.parts import MOST_MODES
 
 MOST_PANELS, MOST_ROWS = 4000, 16000
 """Panels and rows of the wake above which a level is too costly to be tried by itself."""
@@ -110,8 +111,19 @@ def _segment_modes(wing: Wing) -> float:
 
 
 def _with_segment_modes(wing: Wing, count: float) -> Wing:
-    number = _integer(count)
-    return wing.with_analysis(bending_modes=number, torsion_modes=number)
+    """Scale both numbers alike, so that the models are a family; ``count`` is the smaller one."""
+    least, analysis = _segment_modes(wing), wing.analysis
+    bending, torsion = (
+        _integer(count) if own == least else _whole(count * own / least)
+        for own in (analysis.bending_modes, analysis.torsion_modes)
+    )
+    return wing.with_analysis(bending_modes=bending, torsion_modes=torsion)
+
+
+def _segment_levels(wing: Wing) -> Sequence[float]:
+    """Return counts that leave the larger number of modes within what a model may have."""
+    most = max(wing.analysis.bending_modes, wing.analysis.torsion_modes)
+    return [n for n in SEGMENT_MODES if n * most <= MOST_MODES * _segment_modes(wing)]
 
 
 def _gap(wing: Wing) -> float:
@@ -160,7 +172,7 @@ SETTINGS: Mapping[str, Setting] = {
             "segment-modes",
             _segment_modes,
             _with_segment_modes,
-            lambda wing: SEGMENT_MODES,
+            _segment_levels,
             lambda model: True,
         ),
         Setting(

@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.aerodynamics.lattice import Strips, mesh_segments
-from foldwing.aerodynamics.steady_loads import WingLoads, wing_loads, wing_strips
+from foldwing.aerodynamics.steady_loads import WingLoads, least_drag_known, wing_loads, wing_strips
 from foldwing.aeroelastic.wing import strips_warning
-from foldwing.errors import FoldwingError, InputError
+from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
-from foldwing.model import Wing
+from foldwing.model import HingeKind, Wing
 from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.results.steady_table import PER_SEGMENT, WHOLE
 from foldwing.stability.status import Status
+from foldwing.studies.failures import NUMERICAL_FAILURES
 from foldwing.studies.grid import radians, swept_hinge
 from foldwing.studies.modes import fold_coordinates
 
@@ -36,7 +37,10 @@ NO_LEAST_DRAG = (
     "The least induced drag of this shape is not known: segments are too close for these strips."
 )
 
-NUMERICAL_FAILURES = (ArithmeticError, np.linalg.LinAlgError, FoldwingError)
+NO_LEAST_DRAG_COSINE = (
+    "The least induced drag is not known with cosine spacing: take inset or uniform strips for the "
+    "efficiency."
+)
 
 Variables = dict[str, Any]
 
@@ -126,7 +130,7 @@ def steady_study(
     check_stream(alpha, speed)
     wings = _by_gap(wing)
     run = _solved if len(cases) == 1 else _attempt
-    outcomes = tuple(run(tuple(wings.values()), case, alpha, speed) for case in cases)
+    outcomes = tuple(run(wings, case, alpha, speed) for case in cases)
     attrs: Variables = provenance(wing.title, "steady", source.model_text, METHOD, source.options)
     attrs |= {
         "alpha": float(alpha),
@@ -152,18 +156,35 @@ def _by_gap(wing: Wing) -> dict[str, Wing]:
 
 
 def _solved(
-    wings: Sequence[Wing], folds: tuple[float, ...], alpha: float, speed: float
+    wings: dict[str, Wing], folds: tuple[float, ...], alpha: float, speed: float
 ) -> SteadyOutcome:
     angles = radians(folds)
-    warning = strips_warning(wing_strips(wings[0], angles), angles, wings[0].lattice.image)
-    loads = tuple(wing_loads(wing, angles, math.radians(alpha), speed) for wing in wings)
-    if not all(math.isfinite(each.efficiency) for each in loads):
-        warning = f"{warning} {NO_LEAST_DRAG}".strip()
-    return SteadyOutcome(folds, loads, warning)
+    remarks = _warnings(wings, angles)
+    loads = tuple(wing_loads(wing, angles, math.radians(alpha), speed) for wing in wings.values())
+    if not all(least_drag_known(wing) for wing in wings.values()):
+        remarks.append(NO_LEAST_DRAG_COSINE)
+    elif not all(math.isfinite(each.efficiency) for each in loads):
+        remarks.append(NO_LEAST_DRAG)
+    remarks += [
+        f"Hinge {number} is free: the wing is held in its shape."
+        for number, hinge in enumerate(next(iter(wings.values())).hinges, start=2)
+        if hinge.kind is HingeKind.FREE
+    ]
+    return SteadyOutcome(folds, loads, " ".join(remarks))
+
+
+def _warnings(wings: dict[str, Wing], angles: Sequence[float]) -> list[str]:
+    """Return what is doubtful about the strips; closed gaps may bring segments closer together."""
+    found = {
+        gaps: strips_warning(wing_strips(wing, angles), angles, wing.lattice.image)
+        for gaps, wing in wings.items()
+    }
+    named = len(wings) > 1
+    return [f"Gaps {gaps}: {text}" if named else text for gaps, text in found.items() if text]
 
 
 def _attempt(
-    wings: Sequence[Wing], folds: tuple[float, ...], alpha: float, speed: float
+    wings: dict[str, Wing], folds: tuple[float, ...], alpha: float, speed: float
 ) -> SteadyOutcome:
     try:
         return _solved(wings, folds, alpha, speed)

@@ -15,8 +15,9 @@ from foldwing.maths.arrays import Real
 from foldwing.results.schema import build_dataset
 from foldwing.stability.continuation import BoundaryCurve, Limits, follow_boundary
 from foldwing.stability.status import FlutterPoint
-from foldwing.studies.boundary import NUMERICAL_FAILURES, Boundary
+from foldwing.studies.boundary import Boundary
 from foldwing.studies.case import Case
+from foldwing.studies.failures import NUMERICAL_FAILURES
 from foldwing.studies.grid import radians, swept_hinge
 
 ON_CURVE = 0.03

@@ -12,6 +12,9 @@ from foldwing.studies.settings import SETTINGS
 MOST_LEVELS = 100
 """Levels of one setting above which a typing error is more likely than a wish."""
 
+LEAST_LEVELS = 3
+"""Levels of one setting from which an order of convergence can be found."""
+
 _LEVELS_REMEDY = "Write for example --levels chordwise=4,8,16."
 
 
@@ -56,7 +59,8 @@ def variants(
     Raises
     ------
     InputError
-        When the model lacks a setting that is asked for, or cannot take a value.
+        When the model lacks a setting that is asked for, or cannot take a value, or there are too
+        few values.
     """
     values = levels or {}
     names = chosen or [name for name, setting in SETTINGS.items() if setting.applies(model)]
@@ -92,6 +96,11 @@ def _of_setting(wing: Wing, name: str, values: Sequence[float] | None) -> list[V
     found = {setting.own(other): other for other in changed}
     if setting.own_counts:
         found[own] = wing
+    if values and len(found) < LEAST_LEVELS:
+        given = f"{name}={','.join(f'{value:g}' for value in values)}"
+        limit = f"at least {LEAST_LEVELS} levels are needed"
+        limit += f", the model's own {own:g} among them" if setting.own_counts else ""
+        raise InputError("--levels", given, limit, "Give more values, or none for the default.")
     return [
         Variant(name, value, found[value] is wing, value == own, found[value])
         for value in sorted(found)
