@@ -1,6 +1,7 @@
 """The command steady: its document, its tables, its files and its failures."""
 
 import csv
+import re
 
 import pytest
 
@@ -169,7 +170,15 @@ def test_cosine_spacing_gives_no_efficiency_and_says_why(cli):
 def test_the_closed_wing_is_checked_too(cli):
     fold = ("--fold", "170,0", "--gap", "1 cm", "--panels", "2x30")
     (case,) = cli("steady", THREE, *fold, "--json").json["cases"]
-    assert "Gaps closed: segments 2 and 1 come within" in case["message"]
+    assert re.search("Gaps closed: Segments (1 and 2|2 and 1) come within", case["message"])
+
+
+def test_gaps_narrower_than_the_strips_beside_them_are_named(cli):
+    gap = ("--gap", "1 mm", "--fold", "0,0", "--panels", "2x30", "--json")
+    (coarse,) = cli("steady", THREE, *gap).json["cases"]
+    assert "Gaps of hinges 2, 3 are narrower than the strips beside" in coarse["message"]
+    (inset,) = cli("steady", THREE, *gap, "--spacing", "inset").json["cases"]
+    assert "message" not in inset
 
 
 def test_a_free_hinge_is_held(cli, empty_folder):

@@ -141,7 +141,7 @@ class AeroelasticWing:
         doubts = strips_warning(self.strips(modes), modes.fold_angles, image)
         slopes = {segment.lift_slope for segment in self.wing.segments} - {DEFAULT_LIFT_SLOPE}
         unused = "The lattice does not use the model's lift_slope." if slopes else ""
-        return " ".join(filter(None, (doubts, gap_warning(self.wing, self.meshes), unused)))
+        return " ".join(filter(None, (doubts, gap_warning(self.wing), unused)))
 
     def influence(self, modes: StructuralModes) -> Influence:
         """Return the influence of the vortices of the folded wing and its wake."""
@@ -196,8 +196,9 @@ class AeroelasticWing:
         return AeroelasticSystem(modes.omega, self.aerodynamic_model(modes), modes.damping)
 
 
-def gap_warning(wing: Wing, meshes: Sequence[SegmentMesh]) -> str:
+def gap_warning(wing: Wing) -> str:
     """Return in words that the lattice is too coarse for narrow gaps, or gaps are very wide."""
+    meshes = mesh_segments(wing)
     narrow, wide = [], []
     for number, hinge in enumerate(wing.hinges, start=2):
         beside = [np.diff(meshes[number - 2].edges)[-1], np.diff(meshes[number - 1].edges)[0]]

@@ -239,22 +239,23 @@ def response(dataset: "xarray.Dataset") -> str:
 
 
 def warnings(dataset: "xarray.Dataset") -> list[str]:
-    """Return what makes results doubtful, case by case: modes not resolved, remarks."""
+    """Return what makes results doubtful: modes not resolved, remarks on cases, each once."""
     parts = [_unresolved(dataset)]
     if "message" in dataset:
         failed = set(failed_cases(dataset))
-        remarks = dataset["message"].values.tolist()
-        parts += [
-            _remark(dataset, case, remark)
-            for case, remark in enumerate(remarks)
-            if remark and case not in failed
-        ]
+        cases: dict[str, list[int]] = {}
+        for case, remark in enumerate(dataset["message"].values.tolist()):
+            if remark and case not in failed:
+                cases.setdefault(remark, []).append(case)
+        parts += [_remark(dataset, those, remark) for remark, those in cases.items()]
     return [part for part in parts if part]
 
 
-def _remark(dataset: "xarray.Dataset", case: int, remark: str) -> str:
-    """Return a remark, with the fold angles when there are several cases."""
-    return f"{fold_text(dataset, case)}: {remark}" if dataset.sizes["fold"] > 1 else str(remark)
+def _remark(dataset: "xarray.Dataset", cases: Sequence[int], remark: str) -> str:
+    """Return a remark with the fold angles that it is on, unless it is on all of them."""
+    if len(cases) == dataset.sizes["fold"]:
+        return remark
+    return f"{_case_list(dataset, cases)}: {remark}"
 
 
 def unresolved_below(dataset: "xarray.Dataset") -> "np.ndarray[tuple[int], np.dtype[np.float64]]":

@@ -9,7 +9,7 @@ import numpy as np
 
 from foldwing.aerodynamics.lattice import Strips, mesh_segments
 from foldwing.aerodynamics.steady_loads import WingLoads, least_drag_known, wing_loads, wing_strips
-from foldwing.aeroelastic.wing import strips_warning
+from foldwing.aeroelastic.wing import gap_warning, strips_warning
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
 from foldwing.model import HingeKind, Wing
@@ -180,7 +180,8 @@ def _warnings(wings: dict[str, Wing], angles: Sequence[float]) -> list[str]:
         for gaps, wing in wings.items()
     }
     named = len(wings) > 1
-    return [f"Gaps {gaps}: {text}" if named else text for gaps, text in found.items() if text]
+    texts = [f"Gaps {gaps}: {text}" if named else text for gaps, text in found.items() if text]
+    return [text for text in (*texts, gap_warning(next(iter(wings.values())))) if text]
 
 
 def _attempt(
