@@ -166,11 +166,10 @@ def test_highest_frequency_is_half_of_where_steps_alias():
     highest frequency it is that of rest, which carries no circulation."""
     model = wing(chordwise=4, spanwise=6, wake=2.0)
     lattice = model.lattice(model.modes((0.0, 0.0)))
-    steady, k = lattice.steady_forces(), lattice.highest_frequency
+    k = lattice.highest_frequency
     shed = [abs(wake.shed(np.array([1j * n * k * lattice.steps[0]]), 8, 0.0)).max() for n in (1, 4)]
     assert shed[0] > 1.0
     assert shed[1] < 1e-12
-    assert np.isfinite(steady).all()
 
 
 def test_every_mode_comes_in_at_the_lowest_airspeed_of_validity():

@@ -5,6 +5,7 @@
 `strip`         Theodorsen's strip theory, quasi-steady theory
 `horseshoe`     velocity of a horseshoe vortex: any in space, and many across the stream
 `lattice`       strips and panels of the folded wing
+`doubts`        when a lattice is refused or doubtful
 `influence`     every vortex of the wing and its wake on every collocation point
 `wake`          circulation in the rows of the wake
 `unsteady`      the unsteady lattice as a transfer function

@@ -16,7 +16,7 @@ import numpy as np
 from foldwing.aerodynamics.horseshoe import Edges
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Indices, Real
-from foldwing.model import Wing
+from foldwing.model import Lattice, Wing
 
 VORTEX, COLLOCATION = 0.25, 0.75
 """Where bound vortex and collocation point lie on a panel, as fractions of its length."""
@@ -137,7 +137,7 @@ class SegmentMesh:
         """Y of the middle of the strips, shape (s,)."""
         return (self.edges[1:] + self.edges[:-1]) / 2.0
 
-    def station(self, fraction: float | Real) -> Real:
+    def station(self, fraction: float) -> Real:
         """Return x at a fraction of each panel's length, shape (chordwise,)."""
         return self.leading + (np.arange(self.chordwise) + fraction) * self.chord / self.chordwise
 
@@ -190,7 +190,7 @@ def mesh_segments(wing: Wing) -> tuple[SegmentMesh, ...]:
     counts = strips_by_segment(wing)
     return tuple(
         SegmentMesh(
-            _edges(wing, count, segment.span, (inboard, outboard)),
+            _edges(lattice, count, segment.span, (inboard, outboard)),
             -segment.half_chord * (1.0 + segment.axis_offset),
             segment.chord,
             lattice.chordwise,
@@ -213,10 +213,9 @@ def strips_by_segment(wing: Wing) -> tuple[int, ...]:
 
 
 def _edges(
-    wing: Wing, count: int, span: float, ends: tuple[tuple[float, bool], tuple[float, bool]]
+    lattice: Lattice, count: int, span: float, ends: tuple[tuple[float, bool], tuple[float, bool]]
 ) -> Real:
     """Return the edges of the strips of a segment; each end has a gap and may be free."""
-    lattice = wing.lattice
     (inner_gap, inner_free), (outer_gap, outer_free) = ends
     first, last = inner_gap / 2.0, span - outer_gap / 2.0
     share = np.linspace(0.0, 1.0, count + 1)

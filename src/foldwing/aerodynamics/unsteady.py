@@ -34,8 +34,8 @@ WAKE_END = 0.25
 the lattice sees circulation up to there."""
 
 WAKE_DECAY = 0.5
-"""The wake that ends has roots of its own at decays from 0.67 over the root of its length in chords
-on, found for 5 to 80 chords; a model is trusted up to three quarters of that."""
+"""The wake that ends has roots of its own at decays from 0.6 or 0.7 over the square root of its
+length in chords on, found for 5 to 80 chords; a model is trusted up to this."""
 
 BLOCK = 25_000
 """Entries of G computed at a time: what fits into the cache of a core."""

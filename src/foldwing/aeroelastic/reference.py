@@ -18,9 +18,10 @@ import numpy as np
 import scipy.sparse
 from scipy.sparse import csc_array
 
+from foldwing.aerodynamics.doubts import check_equal_chords
 from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.unsteady import PanelMotion
-from foldwing.aeroelastic.wing import AeroelasticWing, check_equal_chords
+from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Complex, Real
 from foldwing.structure.modes import StructuralModes

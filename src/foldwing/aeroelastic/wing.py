@@ -1,19 +1,23 @@
 """From a wing to its aeroelastic system: what depends on the fold angles and what does not."""
 
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from foldwing.aerodynamics.doubts import (
+    check_equal_chords,
+    gap_warning,
+    have_equal_chords,
+    strips_warning,
+    unused_warning,
+)
 from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.lattice import (
     COLLOCATION,
     VORTEX,
     SegmentMesh,
     Strips,
-    closeness,
     folded_strips,
     mesh_segments,
 )
@@ -24,18 +28,10 @@ from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
 from foldwing.maths.quadrature import gauss_rule
-from foldwing.model import Segment, Wing
+from foldwing.model import Wing
 from foldwing.structure.assembly import Assembly, assemble
 from foldwing.structure.component import ComponentModes
 from foldwing.structure.modes import StructuralModes, natural_modes
-
-DEFAULT_LIFT_SLOPE = float(Segment.model_fields["lift_slope"].default)
-
-WIDE = 0.1
-"""Width of a gap in chords above which it is named."""
-
-TOUCHING, CLOSE = 1e-3, 0.1
-"""Distance of segments, in widths of a strip, below which a lattice is refused or doubtful."""
 
 AERODYNAMIC_MODELS = ("strip", "quasi-steady", "lattice")
 """Names of the aerodynamic models, the default first."""
@@ -139,9 +135,8 @@ class AeroelasticWing:
             return ""
         image = self.wing.lattice.image
         doubts = strips_warning(self.strips(modes), modes.fold_angles, image)
-        slopes = {segment.lift_slope for segment in self.wing.segments} - {DEFAULT_LIFT_SLOPE}
-        unused = "The lattice does not use the model's lift_slope." if slopes else ""
-        return " ".join(filter(None, (doubts, gap_warning(self.wing), unused)))
+        others = gap_warning(self.wing), unused_warning(self.wing)
+        return " ".join(filter(None, (doubts, *others)))
 
     def influence(self, modes: StructuralModes) -> Influence:
         """Return the influence of the vortices of the folded wing and its wake."""
@@ -194,83 +189,6 @@ class AeroelasticWing:
     def system(self, modes: StructuralModes) -> AeroelasticSystem:
         """Return the aeroelastic problem of the modes in the airstream."""
         return AeroelasticSystem(modes.omega, self.aerodynamic_model(modes), modes.damping)
-
-
-def gap_warning(wing: Wing) -> str:
-    """Return in words that the lattice is too coarse for narrow gaps, or gaps are very wide."""
-    meshes = mesh_segments(wing)
-    narrow, wide = [], []
-    for number, hinge in enumerate(wing.hinges, start=2):
-        beside = [np.diff(meshes[number - 2].edges)[-1], np.diff(meshes[number - 1].edges)[0]]
-        if 0.0 < hinge.gap < max(beside) and wing.lattice.spacing != "inset":
-            narrow.append(str(number))
-        if hinge.gap > WIDE * min(wing.segments[i].chord for i in (number - 2, number - 1)):
-            wide.append(str(number))
-    texts = (
-        (
-            narrow,
-            "narrower than the strips beside: forces may be 10 % off, less with inset spacing",
-        ),
-        (wide, f"wider than {WIDE:g} chords"),
-    )
-    return " ".join(f"Gaps of hinges {', '.join(who)} are {text}." for who, text in texts if who)
-
-
-def _in_degrees(fold_angles: Sequence[float]) -> str:
-    return ", ".join(f"{math.degrees(angle):g}" for angle in fold_angles)
-
-
-def strips_warning(strips: Strips, fold_angles: Sequence[float], image: bool) -> str:
-    """Return in words that segments come too close for a lattice, empty when they do not.
-
-    Parameters
-    ----------
-    strips : Strips
-    fold_angles : sequence of float
-        psi_2 .. psi_N in radians, for the message.
-    image : bool
-        Whether there is a wall at y = 0.
-
-    Raises
-    ------
-    InputError
-        When segments lie on each other, or reach through the wall.
-    """
-    if image and strips.middle[:, 0].min() <= 0.0:
-        limit = "the folded wing must stay on its side of the wall at the root"
-        remedy = "Take the wall away (image), or change the angles."
-        raise InputError("fold", _in_degrees(fold_angles), limit, remedy)
-    near = closeness(strips)
-    pair = f"segments {near.segment + 1} and {near.other + 1}"
-    if near.ratio < TOUCHING:
-        limit = f"{pair} lie on each other, {round(1e3 * near.distance, 6):g} mm apart"
-        remedy = "A vortex lattice cannot be folded flat: change the angle by some degrees."
-        raise InputError("fold", _in_degrees(fold_angles), limit, remedy)
-    if near.ratio < CLOSE:
-        return (
-            f"{pair.capitalize()} come within {1e3 * near.distance:.2g} mm of each other, "
-            f"{near.ratio:.2g} widths of a strip: the lattice is inaccurate there."
-        )
-    return ""
-
-
-def have_equal_chords(wing: Wing) -> bool:
-    """Return whether all segments have the same chord."""
-    return len({segment.chord for segment in wing.segments}) == 1
-
-
-def check_equal_chords(wing: Wing, field: str, value: str, remedy: str) -> None:
-    """Raise `InputError` unless one step in time fits all chords.
-
-    Parameters
-    ----------
-    wing : Wing
-    field, value, remedy : str
-        What asks for discrete time, and what to do instead, for the message.
-    """
-    if not have_equal_chords(wing):
-        limit = "a discrete-time scheme needs segments of equal chord"
-        raise InputError(field, value, limit, remedy)
 
 
 def _panel_motion(component: ComponentModes, mesh: SegmentMesh, length: Real) -> PanelMotion:

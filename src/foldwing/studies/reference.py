@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from foldwing.aerodynamics.doubts import check_equal_chords
 from foldwing.aeroelastic.reference import Reference
 from foldwing.aeroelastic.reference_flutter import (
     RealRoots,
@@ -21,7 +22,7 @@ from foldwing.aeroelastic.reference_flutter import (
     real_roots,
 )
 from foldwing.aeroelastic.reference_loci import ModesAtSpeed, follow
-from foldwing.aeroelastic.wing import AeroelasticWing, check_equal_chords
+from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.maths.arrays import Real
 from foldwing.model import Wing
 from foldwing.results.flutter_table import table_variables

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from foldwing.aerodynamics.doubts import gap_warning, strips_warning
 from foldwing.aerodynamics.lattice import Strips, mesh_segments
 from foldwing.aerodynamics.steady_loads import WingLoads, least_drag_known, wing_loads, wing_strips
-from foldwing.aeroelastic.wing import gap_warning, strips_warning
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
 from foldwing.model import HingeKind, Wing
