@@ -255,8 +255,8 @@ def test_a_long_value_is_refused_at_once_and_shortened(text):
 @pytest.mark.parametrize(
     ("content", "limit"),
     [
-        (b"", "must describe a wing"),
-        (b" \n\n", "must describe a wing"),
+        (b"", "must describe a model"),
+        (b" \n\n", "must describe a model"),
         (b"\x89PNG\r\n\x1a\n\x00\xff", "UTF-8"),
         ("title = 'x'".encode("utf-16"), "UTF-8"),
         (b"\x00\x01\x02", "valid TOML"),

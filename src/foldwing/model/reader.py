@@ -70,10 +70,28 @@ def parse_model(text: str, source: str = "MODEL") -> Wing:
     Raises
     ------
     InputError
-        When the model cannot be used; it names the field.
+        When the model cannot be used, or has no wing; it names the field.
+    """
+    return resolved(parse_file(text, source))
+
+
+def parse_file(text: str, source: str = "MODEL") -> ModelFile:
+    """Return the tables of a model file as they are written, each checked by itself.
+
+    Parameters
+    ----------
+    text : str
+        The model.
+    source : str
+        Name of the text for error messages.
+
+    Raises
+    ------
+    InputError
+        When the text is no model file; it names the field.
     """
     if not text.strip():
-        raise InputError(source, "an empty text", "must describe a wing in TOML", _START)
+        raise InputError(source, "an empty text", "must describe a model in TOML", _START)
     try:
         content = tomllib.loads(text)
     except RecursionError as error:
@@ -84,8 +102,7 @@ def parse_model(text: str, source: str = "MODEL") -> Wing:
         limit = f"must be valid TOML: {error}"
         raise InputError(source, _line_of(str(error), text), limit, _TOML_REMEDY) from error
     with as_input_error():
-        model = ModelFile.model_validate(content)
-    return resolved(model)
+        return ModelFile.model_validate(content)
 
 
 def _line_of(message: str, text: str) -> str:

@@ -7,7 +7,7 @@ from foldwing.model.faults import as_input_error, file_path, shown
 from foldwing.model.material import Material, strip_inertia, strip_properties
 from foldwing.model.parts import MID_CHORD, Hinge, HingeKind, Segment
 from foldwing.model.record import suggest
-from foldwing.model.schema import HingeTable, ModelFile, SegmentKeys
+from foldwing.model.schema import HingeTable, ModelFile, SegmentKeys, WingTable
 from foldwing.model.wing import Wing, in_file
 
 _SHEET = ("bending_stiffness", "torsion_stiffness", "mass_per_span", "inertia_per_span")
@@ -22,10 +22,13 @@ def resolved(model: ModelFile) -> Wing:
     InputError
         When something is missing or does not fit; it names the field in the file.
     """
-    segments = tuple(_segment(model, index) for index in range(len(model.wing.segment)))
+    wing = model.wing
+    if wing is None:
+        raise model.missing("wing")
+    segments = tuple(_segment(model, wing, index) for index in range(len(wing.segment)))
     hinges = tuple(
         _hinge(table.hinge, index)
-        for index, table in enumerate(model.wing.segment)
+        for index, table in enumerate(wing.segment)
         if table.hinge is not None
     )
     with as_input_error(place=in_file):
@@ -68,8 +71,8 @@ class _Section:
         return file_path(("wing", "segment", self.index, key) if own else ("wing", key))
 
 
-def _segment(model: ModelFile, index: int) -> Segment:
-    section = _Section(index, model.wing.segment[index], model.wing)
+def _segment(model: ModelFile, wing: WingTable, index: int) -> Segment:
+    section = _Section(index, wing.segment[index], wing)
     given = {key: section.value(key) for key in Segment.model_fields}
     values = {key: value for key, value in given.items() if value is not None}
     values |= {"span": section.length("span"), "chord": section.length("chord")}

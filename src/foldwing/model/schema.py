@@ -4,6 +4,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, StrictBool, model_validator
 
+from foldwing.errors import InputError
 from foldwing.model.faults import fault
 from foldwing.model.material import Material
 from foldwing.model.parts import MOST_SPRINGS, Air, Analysis, Lattice, PointMass
@@ -128,10 +129,14 @@ class WingTable(SegmentKeys):
         return self
 
 
+COMMANDS = {"wing": "foldwing modes, flutter, boundary, convergence or steady"}
+"""By table that a model file may be about: what works on it."""
+
+
 class ModelFile(Record):
     """A whole model file."""
 
-    wing: WingTable
+    wing: WingTable | None = None
     title: str = ""
     material: dict[str, Material] = Field(default_factory=dict)
     point_mass: tuple[PointMass, ...] = ()
@@ -139,8 +144,22 @@ class ModelFile(Record):
     analysis: Analysis = Analysis()
     lattice: Lattice = Lattice()
 
+    @model_validator(mode="after")
+    def _is_about_something(self) -> Self:
+        if all(getattr(self, table) is None for table in COMMANDS):
+            limit = f"is required: a model has a table {' or '.join(f'[{t}]' for t in COMMANDS)}"
+            raise fault(("wing",), None, limit, "Add wing.")
+        return self
+
+    def missing(self, table: str) -> InputError:
+        """Return the error of a command that needs a table which this file does not have."""
+        others = [name for name in COMMANDS if getattr(self, name) is not None]
+        use = "; or use " + " or ".join(COMMANDS[name] for name in others) if others else ""
+        return InputError(table, None, f"this command needs a [{table}] table", f"Add it{use}.")
+
 
 def json_schema() -> dict[str, Any]:
     """Return the JSON schema of a model file, for editors."""
     schema = ModelFile.model_json_schema()
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
+    about = [{"required": [table]} for table in COMMANDS]
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema, "anyOf": about}
