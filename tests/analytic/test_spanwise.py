@@ -10,6 +10,7 @@ from foldwing.structure.spanwise import (
     JacobiFunctions,
     Joined,
     Monomials,
+    Root,
     beam_wave_numbers,
     bending_functions,
     torsion_functions,
@@ -124,7 +125,7 @@ def test_elastic_free_functions_move_no_mass_centre_and_do_not_turn(kind):
     functions = bending_functions if kind == "bending" else torsion_functions
     y, weights = gauss(LENGTH)
     rigid = 2 if kind == "bending" else 1
-    f = functions(LENGTH, MOST, False, "free-free").evaluate(y, 0)
+    f = functions(LENGTH, MOST, Root.FREE, "free-free").evaluate(y, 0)
     overlap = gram(f[:, :rigid], f[:, rigid:], weights) / LENGTH
     np.testing.assert_allclose(overlap, 0.0, atol=1e-13)
 
@@ -242,13 +243,14 @@ def test_jacobi_function_number_j_has_degree_j_plus_root(root):
 
 
 @pytest.mark.parametrize("basis", ["free-free", "converged"])
-@pytest.mark.parametrize("clamped", [True, False])
-def test_counts_are_those_promised(basis, clamped):
-    """A free segment has one bending function more, its translation, and none too few."""
+@pytest.mark.parametrize("root", Root)
+def test_counts_are_those_promised(basis, root):
+    """Unless clamped, a segment has one bending function more, its translation."""
     y = np.linspace(0, LENGTH, 50)
-    bending = bending_functions(LENGTH, 7, clamped, basis)
-    torsion = torsion_functions(LENGTH, 5, clamped, basis)
-    assert bending.count == (7 if clamped else 8) == np.linalg.matrix_rank(bending.evaluate(y, 0))
+    bending = bending_functions(LENGTH, 7, root, basis)
+    torsion = torsion_functions(LENGTH, 5, root, basis)
+    wanted = 7 if root is Root.CLAMPED else 8
+    assert bending.count == wanted == np.linalg.matrix_rank(bending.evaluate(y, 0))
     assert torsion.count == 5 == np.linalg.matrix_rank(torsion.evaluate(y, 0))
 
 

@@ -54,6 +54,8 @@ class PolynomialAir:
     def steady_forces(self):
         return self.Q0
 
+    has_apparent_mass = True
+
     def apparent_mass(self):
         return -self.Q2 * self.half_chord**2
 

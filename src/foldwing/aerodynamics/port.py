@@ -42,5 +42,9 @@ class AerodynamicModel(Protocol):
     def steady_forces(self) -> Real:
         """Return Qhat(0), shape (n, n)."""
 
-    def apparent_mass(self) -> Real | None:
-        """Return the apparent mass of still air (n, n), to be added to the mass, if it exists."""
+    @property
+    def has_apparent_mass(self) -> bool:
+        """Whether all forces include those of apparent mass."""
+
+    def apparent_mass(self) -> Real:
+        """Return the apparent mass of still air (n, n), to be added to the mass."""

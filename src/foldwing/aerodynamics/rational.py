@@ -58,8 +58,10 @@ class RationalModel:
         F_s.
     steady : array, shape (n, n)
         Qhat(0) of the model approximated.
-    apparent : array, shape (n, n), or None
+    apparent : array, shape (n, n)
         Its apparent mass of still air.
+    has_apparent_mass : bool
+        Whether all of its forces include those of apparent mass.
     error : float
         Largest error half way between samples, relative to the largest entry there.
     tolerance : float
@@ -74,7 +76,8 @@ class RationalModel:
     weights: Complex
     values: Complex
     steady: Real
-    apparent: Real | None
+    apparent: Real
+    has_apparent_mass: bool
     error: float
     tolerance: float
 
@@ -114,8 +117,8 @@ class RationalModel:
         """Return Qhat(0), shape (n, n)."""
         return self.steady
 
-    def apparent_mass(self) -> Real | None:
-        """Return the apparent mass of still air (n, n), if the model approximated has one."""
+    def apparent_mass(self) -> Real:
+        """Return the apparent mass of still air (n, n) of the model approximated."""
         return self.apparent
 
 
@@ -155,6 +158,7 @@ def rational_model(
         values=np.concatenate([F[chosen], F[pair].conj()]),
         steady=model.steady_forces(),
         apparent=model.apparent_mass(),
+        has_apparent_mass=model.has_apparent_mass,
         error=np.inf,
         tolerance=tolerance,
     )

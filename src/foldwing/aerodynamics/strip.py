@@ -14,13 +14,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
 from foldwing.aerodynamics.schemes import EXACT, TimeScheme
 from foldwing.maths.arrays import Complex, Real
 from foldwing.maths.bessel import theodorsen, theodorsen_with_derivative
-from foldwing.model import Segment
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,8 @@ class StripForces:
     half_chord : float
         Of the segment, in metres.
     acceleration, rate, lag_rate, lag : array, shape (n, n)
+    lags : bool
+        Whether C is Theodorsen's function; quasi-steady forces have C = 1.
     """
 
     half_chord: float
@@ -39,29 +41,45 @@ class StripForces:
     rate: Real
     lag_rate: Real
     lag: Real
+    lags: bool = True
 
     def projected(self, q: Real) -> "StripForces":
         """Return the forces of the motions ``q`` (n, m), a matrix of column vectors."""
-        return StripForces(
-            self.half_chord,
-            *(q.T @ A @ q for A in (self.acceleration, self.rate, self.lag_rate, self.lag)),
-        )
+        parts = (self.acceleration, self.rate, self.lag_rate, self.lag)
+        acceleration, rate, lag_rate, lag = (q.T @ A @ q for A in parts)
+        return StripForces(self.half_chord, acceleration, rate, lag_rate, lag, self.lags)
 
     @property
     def quasi_steady(self) -> "StripForces":
-        """The same without apparent mass terms; the lag C is then taken as 1."""
+        """The same without apparent mass terms and without lag."""
         zero = np.zeros_like(self.rate)
-        return StripForces(self.half_chord, zero, zero, self.lag_rate, self.lag)
+        return StripForces(self.half_chord, zero, zero, self.lag_rate, self.lag, lags=False)
+
+
+class Section(Protocol):
+    """What strip theory asks of a segment or a tail."""
+
+    @property
+    def half_chord(self) -> float:
+        """Half chord b in metres."""
+
+    @property
+    def axis_offset(self) -> float:
+        """Distance a of the elastic axis aft of mid-chord, in half chords."""
+
+    @property
+    def lift_slope(self) -> float:
+        """Slope of the lift coefficient, 1/rad."""
 
 
 def strip_forces(
-    segment: Segment, density: float, weights: Real, plunge: Real, twist: Real
+    section: Section, density: float, weights: Real, plunge: Real, twist: Real
 ) -> StripForces:
     """Integrate the section forces over the span of one segment.
 
     Parameters
     ----------
-    segment : Segment
+    section : Section
     density : float
         Of the air in kg/m^3.
     weights : array, shape (m,)
@@ -69,12 +87,12 @@ def strip_forces(
     plunge, twist : array, shape (m, n)
         Motion of the sections per coordinate: up in metres, nose up in radians.
     """
-    b, a, rho = segment.half_chord, segment.axis_offset, density
+    b, a, rho = section.half_chord, section.axis_offset, density
     h, phi, weight = plunge, twist, weights[:, None]
     lift_arm = h + b * (a + 0.5) * phi
     downwash = -h + b * (0.5 - a) * phi
     noncirculatory = np.pi * rho * b**2
-    circulatory = segment.lift_slope * rho * b
+    circulatory = section.lift_slope * rho * b
     plunge_load = -h - b * a * phi
     twist_load = -b * a * h - b**2 * (0.125 + a**2) * phi
     return StripForces(
@@ -87,6 +105,34 @@ def strip_forces(
     )
 
 
+def trim_strip_forces(
+    section: Section, load: float, weights: Real, motion: tuple[Real, Real, Real], lags: bool
+) -> StripForces:
+    """Integrate what a steady lift adds to the forces on a moving segment, divided by U^2.
+
+    Linearised about the steady lift l per span, with h' up and u' aft, so that -u' is an increase
+    of the airspeed: the lift grows by 2 C l (-u')/U at the quarter chord, and turns aft by h'/U.
+
+    Parameters
+    ----------
+    section : Section
+    load : float
+        l in N/m, normal to the segment.
+    weights : array, shape (m,)
+        Quadrature weights along the span in metres.
+    motion : tuple of array, shape (m, n)
+        Plunge, twist and displacement aft of the sections per coordinate.
+    lags : bool
+        Whether the change of the lift lags by Theodorsen's function.
+    """
+    b, a = section.half_chord, section.axis_offset
+    h, phi, u = motion
+    weight = load * weights[:, None]
+    zero = np.zeros((h.shape[1],) * 2)
+    lag_rate = -2.0 * (h + b * (a + 0.5) * phi).T @ (weight * u)
+    return StripForces(b, zero, u.T @ (weight * h), lag_rate, zero, lags)
+
+
 @dataclass(frozen=True)
 class StripModel:
     """Strip theory for the modes of a wing; obeys the port of aerodynamic models.
@@ -97,13 +143,10 @@ class StripModel:
         Reference length b of p in metres.
     segments : tuple of StripForces
         Forces on each segment for the same n modes.
-    lag : bool
-        Whether the circulatory forces lag by Theodorsen's C(p); quasi-steady theory has C = 1.
     """
 
     half_chord: float
     segments: tuple[StripForces, ...]
-    lag: bool = True
 
     @property
     def size(self) -> int:
@@ -126,8 +169,9 @@ class StripModel:
         return EXACT
 
     @cached_property
-    def _chords(self) -> tuple[float, ...]:
-        return tuple(sorted({s.half_chord for s in self.segments}))
+    def _lags(self) -> tuple[tuple[float, bool], ...]:
+        """Half chords, with and without lag: each has a C of its own."""
+        return tuple(sorted({(s.half_chord, s.lags) for s in self.segments}))
 
     @cached_property
     def _terms(self) -> Complex:
@@ -138,8 +182,8 @@ class StripModel:
             sum(s.rate for s in self.segments) / b,
             sum(s.acceleration for s in self.segments) / b**2,
         ]
-        for chord in self._chords:
-            alike = [s for s in self.segments if s.half_chord == chord]
+        for lag in self._lags:
+            alike = [s for s in self.segments if (s.half_chord, s.lags) == lag]
             rows += [sum(s.lag for s in alike), sum(s.lag_rate for s in alike) / b]
         return np.array(rows, dtype=complex).reshape(len(rows), n * n)
 
@@ -147,8 +191,8 @@ class StripModel:
         """Return what the terms are multiplied by, shape (m, terms)."""
         value = np.empty((len(p), len(self._terms)), complex)
         value[:, 0], value[:, 1], value[:, 2] = 1.0, p, p * p
-        for number, chord in enumerate(self._chords):
-            C = theodorsen(p * (chord / self.half_chord)) if self.lag else np.ones_like(p)
+        for number, (chord, lags) in enumerate(self._lags):
+            C = theodorsen(p * (chord / self.half_chord)) if lags else np.ones_like(p)
             value[:, 3 + 2 * number], value[:, 4 + 2 * number] = C, p * C
         return value
 
@@ -157,16 +201,16 @@ class StripModel:
         value, slope = np.zeros((2, len(p), len(self._terms)), complex)
         value[:, 0], value[:, 1], value[:, 2] = 1.0, p, p * p
         slope[:, 1], slope[:, 2] = 1.0, 2.0 * p
-        for number, chord in enumerate(self._chords):
+        for number, lag in enumerate(self._lags):
             column = 3 + 2 * number
             with np.errstate(invalid="ignore"):  # at p = 0 dC/dp is infinite
-                C, dC = self._lag(p, chord)
+                C, dC = self._lag(p, *lag)
                 slope[:, column], slope[:, column + 1] = dC, C + p * dC
             value[:, column], value[:, column + 1] = C, p * C
         return value, slope
 
-    def _lag(self, p: Complex, chord: float) -> tuple[Complex, Complex]:
-        if not self.lag:
+    def _lag(self, p: Complex, chord: float, lags: bool) -> tuple[Complex, Complex]:
+        if not lags:
             return np.ones_like(p), np.zeros_like(p)
         ratio = chord / self.half_chord
         C, dC = theodorsen_with_derivative(p * ratio)
@@ -194,10 +238,13 @@ class StripModel:
         """Return Qhat(0), shape (n, n)."""
         return np.asarray(sum(s.lag for s in self.segments))
 
-    def apparent_mass(self) -> Real | None:
-        """Return the apparent mass of still air (n, n); None for quasi-steady theory."""
-        if not self.lag:
-            return None
+    @property
+    def has_apparent_mass(self) -> bool:
+        """Whether no segment is quasi-steady."""
+        return all(s.lags for s in self.segments)
+
+    def apparent_mass(self) -> Real:
+        """Return the apparent mass of still air (n, n); that of quasi-steady segments is zero."""
         return np.asarray(-sum(s.acceleration for s in self.segments))
 
 
@@ -207,4 +254,4 @@ def strip_model(
     """Return strip theory for the modes given by each segment's coordinates ``motions``."""
     base = forces if lag else [f.quasi_steady for f in forces]
     projected = tuple(f.projected(q) for f, q in zip(base, motions, strict=True))
-    return StripModel(half_chord, projected, lag)
+    return StripModel(half_chord, projected)

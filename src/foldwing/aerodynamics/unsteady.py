@@ -16,7 +16,7 @@ them to round-off, A_j = sum_k X_jk A_k, so that only these are projected and su
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -88,6 +88,8 @@ class LatticeModel:
         dx / b of each group.
     order : array of int, shape (strips,)
         Strips in the order of the groups.
+    response : array, shape (strips + 2 n, panels)
+        Y.
     wash : tuple of array, shape (strips + 2 n, n)
         Y times dw/dx and Y times w.
     relaxation : float
@@ -100,6 +102,7 @@ class LatticeModel:
     weights: tuple[Real, ...]
     steps: tuple[float, ...]
     order: Indices
+    response: Real
     wash: tuple[Real, Real]
     relaxation: float = 0.0
     scheme: TimeScheme = EXACT
@@ -119,6 +122,10 @@ class LatticeModel:
         """Decay -Re p up to which no root of the wake's end is met, by experience."""
         chords = min(h * len(X) for h, X in zip(self.steps, self.weights, strict=True)) / 2.0
         return float(WAKE_DECAY / np.sqrt(chords))
+
+    def driven(self, slope: Real, collocation: Real) -> "LatticeModel":
+        """Return the forces on the same modes of another wash dw/dx and w, each (panels, n)."""
+        return replace(self, wash=(self.response @ slope, self.response @ collocation))
 
     @property
     def _strips(self) -> int:
@@ -172,6 +179,11 @@ class LatticeModel:
     def steady_forces(self) -> Real:
         """Return Qhat(0), shape (n, n)."""
         return self.wash[0][self._strips : self._strips + self.size]
+
+    @property
+    def has_apparent_mass(self) -> bool:
+        """Growing circulation loads all panels."""
+        return True
 
     def apparent_mass(self) -> Real:
         """Return the apparent mass of still air (n, n).
@@ -254,6 +266,7 @@ def lattice_model(
         weights=tuple(wake.weights for wake in wakes),
         steps=steps,
         order=np.concatenate(influence.groups),
+        response=Y,
         wash=(Y @ motion.slope, Y @ motion.collocation),
         relaxation=lattice.relaxation,
         scheme=TimeScheme(lattice.scheme, influence.step(0)),

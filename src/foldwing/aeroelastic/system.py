@@ -4,12 +4,15 @@ With unit modal mass, natural frequencies omega and structural damping ratio zet
 
     T(p, U) = diag(omega^2) + U (p/b) diag(2 zeta omega) - U^2 B(p),    B = Qhat(p) - (p/b)^2 I.
 
+The steady lift that carries an aircraft adds forces Qhat_0(p) that do not depend on the airspeed
+(the lift is the weight at every U): T gains -Qhat_0(p).
+
 A discrete-time aerodynamic model replaces p and (p/b)^2 where they stand for time derivatives
 (`foldwing.aerodynamics.schemes`). Rows and columns are divided by omega, so that all entries are of
-order one. A mode without stiffness has no constant term: its column is divided by U^2. A *neutral*
-motion, without stiffness and without steady aerodynamic force (a free flap), is an exact zero root
-at every airspeed: it is rotated to stand apart and its column is divided by p as well, so that T
-keeps only the other roots.
+order one. Without Qhat_0 a mode without stiffness has no constant term: its column is divided by
+U^2. A *neutral* motion, without stiffness and without steady aerodynamic force (a free flap, the
+translations of an aircraft), is an exact zero root at every airspeed: it is rotated to stand apart
+and its column is divided by p as well, so that T keeps only the other roots.
 """
 
 from dataclasses import dataclass
@@ -37,11 +40,14 @@ class AeroelasticSystem:
         For the same n modes, of unit modal mass.
     damping : float
         Structural damping ratio zeta.
+    trim_forces : AerodynamicModel, optional
+        Gives Qhat_0 in place of Qhat.
     """
 
     omega: Real
     aerodynamics: AerodynamicModel
     damping: float = 0.0
+    trim_forces: AerodynamicModel | None = None
 
     @property
     def size(self) -> int:
@@ -121,6 +127,11 @@ class AeroelasticSystem:
         rates = self.aerodynamics.scheme.rates(p / self.half_chord)
         minus_B = self._in_coordinates(self.aerodynamics.forces(p), _stacked(rates.inertia))
         damping = None if self._damping is None else _stacked(rates.rate) * self._damping
+        if self.trim_forces is not None:
+            constant = self._stiffness + self._in_coordinates(self.trim_forces.forces(p), 0.0)
+            for part in (constant, minus_B):
+                part[:, :, self.neutral] /= p[:, None, None]
+            return Pencil(constant, damping, minus_B)
         if not self.rigid.any():
             return Pencil(self._stiffness, damping, minus_B)
         constant = np.where(self.rigid, minus_B, self._stiffness)
@@ -139,12 +150,28 @@ class AeroelasticSystem:
         if self._damping is not None:
             damping = _stacked(rates.rate) * self._damping
             damping_slope = _stacked(slopes.rate) / b * self._damping
+        if self.trim_forces is not None:
+            Q, dQ = self.trim_forces.forces_with_derivative(p)
+            constant = self._stiffness + self._in_coordinates(Q, 0.0)
+            constant_slope = self._in_coordinates(dQ, 0.0)
+            self._divide_neutral(p, constant, constant_slope)
+            self._divide_neutral(p, minus_B, slope)
+            return (
+                Pencil(constant, damping, minus_B),
+                Pencil(constant_slope, damping_slope, slope),
+            )
         if self.rigid.any():
             return self._with_rigid_columns(p, (minus_B, slope), (damping, damping_slope))
         zero = np.zeros_like(self._stiffness)
         return Pencil(self._stiffness, damping, minus_B), Pencil(zero, damping_slope, slope)
 
-    def _in_coordinates(self, forces: Complex, inertia: Complex) -> Complex:
+    def _divide_neutral(self, p: Complex, part: Complex, slope: Complex) -> None:
+        """Divide the columns of neutral motions by p, in a matrix and its derivative."""
+        neutral = self.neutral
+        part[:, :, neutral] /= p[:, None, None]
+        slope[:, :, neutral] = (slope[:, :, neutral] - part[:, :, neutral]) / p[:, None, None]
+
+    def _in_coordinates(self, forces: Complex, inertia: Complex | float) -> Complex:
         """Return ``inertia`` times the mass less the forces, in the coordinates of T."""
         if self.rigid.any():
             forces = self.rotation.T @ forces @ self.rotation
@@ -157,13 +184,11 @@ class AeroelasticSystem:
         damping: tuple[Complex | None, Complex | None],
     ) -> tuple[Pencil, Pencil]:
         """Move the columns of rigid motions to the constant term, divided by p if neutral."""
-        rigid, neutral = self.rigid, self.neutral
+        rigid = self.rigid
         minus_B, slope = inertia_less_forces
         constant = np.where(rigid, minus_B, self._stiffness)
         constant_slope = np.where(rigid, slope, 0.0)
-        divided = constant[:, :, neutral] / p[:, None, None]
-        constant[:, :, neutral] = divided
-        constant_slope[:, :, neutral] = (constant_slope[:, :, neutral] - divided) / p[:, None, None]
+        self._divide_neutral(p, constant, constant_slope)
         return (
             Pencil(constant, damping[0], np.where(rigid, 0.0, minus_B)),
             Pencil(constant_slope, damping[1], np.where(rigid, 0.0, slope)),
@@ -171,7 +196,8 @@ class AeroelasticSystem:
 
     def modal_vectors(self, p: Complex, speed: Real, x: Complex) -> Complex:
         """Return null vectors x of T (m, n) as modal coordinates q of unit 2-norm, shape (m, n)."""
-        factor = np.where(self.rigid, 1.0 / speed[:, None] ** 2, 1.0)
+        divided = self.rigid if self.trim_forces is None else np.zeros_like(self.rigid)
+        factor = np.where(divided, 1.0 / speed[:, None] ** 2, 1.0)
         factor = factor * np.where(self.neutral, 1.0 / p[:, None], 1.0)
         q = (x * factor * self.scale) @ self.rotation.T
         return np.asarray(q / np.linalg.norm(q, axis=1, keepdims=True))
@@ -180,14 +206,13 @@ class AeroelasticSystem:
         """Return the problem at U = 0 over the elastic modes, with apparent mass if it exists."""
         elastic = np.flatnonzero(~self.rigid)
         block, s = np.ix_(elastic, elastic), self.scale[elastic]
-        apparent = self.aerodynamics.apparent_mass()
-        mass = np.eye(self.size) + (0.0 if apparent is None else apparent)
+        mass = np.eye(self.size) + self.aerodynamics.apparent_mass()
         return StillAir(
             mass=mass[block] * np.outer(s, s),
             damping=np.diag(2.0 * self.damping * s),
             stiffness=np.eye(len(elastic)),
             columns=elastic,
-            apparent_mass=apparent is not None,
+            apparent_mass=self.aerodynamics.has_apparent_mass,
         )
 
 

@@ -1,10 +1,11 @@
 """From a wing to its aeroelastic system: what depends on the fold angles and what does not."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from foldwing.aerodynamics.combined import CombinedModel
 from foldwing.aerodynamics.doubts import (
     check_equal_chords,
     gap_warning,
@@ -24,7 +25,9 @@ from foldwing.aerodynamics.lattice import (
 from foldwing.aerodynamics.port import AerodynamicModel
 from foldwing.aerodynamics.strip import StripForces, StripModel, strip_forces, strip_model
 from foldwing.aerodynamics.unsteady import LatticeModel, PanelMotion, lattice_model, load_length
+from foldwing.aeroelastic.aircraft import aircraft_trim, tail_forces, trim_forces
 from foldwing.aeroelastic.system import AeroelasticSystem
+from foldwing.aeroelastic.trim import Trim
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
 from foldwing.maths.quadrature import gauss_rule
@@ -37,6 +40,19 @@ AERODYNAMIC_MODELS = ("strip", "quasi-steady", "lattice")
 """Names of the aerodynamic models, the default first."""
 
 
+def default_aerodynamics(wing: Wing) -> str:
+    """Return the aerodynamic model that a wing is studied with unless another is asked for."""
+    if wing.aircraft is None or wing.aircraft.wing_aerodynamics == "theodorsen":
+        return AERODYNAMIC_MODELS[0]
+    return wing.aircraft.wing_aerodynamics
+
+
+def check_clamped(wing: Wing, field: str, value: object, remedy: str) -> None:
+    """Refuse what only a wing with a clamped root can do."""
+    if wing.aircraft is not None:
+        raise InputError(field, value, "is for wings with a clamped root only", remedy)
+
+
 @dataclass(frozen=True)
 class AeroelasticWing:
     """A wing with everything computed once that a sweep of fold angles shares.
@@ -45,7 +61,7 @@ class AeroelasticWing:
     ----------
     wing : Wing
     aerodynamics : str
-        One of ``AERODYNAMIC_MODELS``.
+        One of ``AERODYNAMIC_MODELS``; by default what the wing's aircraft says, else the first.
     dropped : tuple of str
         Names of natural modes to leave out, such as ``B2``.
 
@@ -56,11 +72,13 @@ class AeroelasticWing:
     """
 
     wing: Wing
-    aerodynamics: str = "strip"
+    aerodynamics: str = ""
     dropped: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        """Refuse unknown aerodynamics, and time steps that fit no chord."""
+        """Fill in the aerodynamics; refuse unknown ones, and time steps that fit no chord."""
+        if not self.aerodynamics:
+            object.__setattr__(self, "aerodynamics", default_aerodynamics(self.wing))
         if self.aerodynamics not in AERODYNAMIC_MODELS:
             limit = f"must be one of: {', '.join(AERODYNAMIC_MODELS)}"
             remedy = f"The default is {AERODYNAMIC_MODELS[0]}."
@@ -68,6 +86,7 @@ class AeroelasticWing:
         scheme = self.wing.lattice.scheme
         if self.aerodynamics == "lattice" and scheme != "exact":
             check_equal_chords(self.wing, "lattice.scheme", scheme, 'Take scheme = "exact".')
+            check_clamped(self.wing, "lattice.scheme", scheme, 'Take scheme = "exact".')
 
     @property
     def equal_chords(self) -> bool:
@@ -177,18 +196,55 @@ class AeroelasticWing:
         )
 
     def strip_theory(self, modes: StructuralModes) -> StripModel:
-        """Return strip theory for the modes, quasi-steady unless its forces are to lag."""
+        """Return strip theory for the modes, quasi-steady unless its forces are to lag.
+
+        The tail of an aircraft comes last.
+        """
         lag = self.aerodynamics == "strip"
-        return strip_model(self._strips, modes.by_segment, self.half_chord, lag)
+        model = strip_model(self._strips, modes.by_segment, self.half_chord, lag)
+        return replace(model, segments=(*model.segments, *self._tail(modes)))
+
+    def _tail(self, modes: StructuralModes) -> tuple[StripForces, ...]:
+        if self.wing.aircraft is None:
+            return ()
+        forces = tail_forces(self.wing, self.assembly.components[0])
+        return (forces.projected(modes.by_segment[0]),)
 
     def aerodynamic_model(self, modes: StructuralModes) -> AerodynamicModel:
-        """Return the aerodynamic forces of the modes."""
-        lattice = self.aerodynamics == "lattice"
-        return self.lattice(modes) if lattice else self.strip_theory(modes)
+        """Return the aerodynamic forces of the modes, those of a tail included."""
+        if self.aerodynamics != "lattice":
+            return self.strip_theory(modes)
+        return self._with_tail(self.lattice(modes), modes)
+
+    def _with_tail(self, lattice: LatticeModel, modes: StructuralModes) -> AerodynamicModel:
+        if self.wing.aircraft is None:
+            return lattice
+        return CombinedModel((lattice, StripModel(self.half_chord, self._tail(modes))))
+
+    def trim(self, modes: StructuralModes) -> Trim:
+        """Return level flight of the aircraft at the fold angles of its modes.
+
+        Raises
+        ------
+        InputError
+            When no angle of attack lifts the weight.
+        """
+        return aircraft_trim(self, modes)
 
     def system(self, modes: StructuralModes) -> AeroelasticSystem:
-        """Return the aeroelastic problem of the modes in the airstream."""
-        return AeroelasticSystem(modes.omega, self.aerodynamic_model(modes), modes.damping)
+        """Return the aeroelastic problem of the modes in the airstream.
+
+        Raises
+        ------
+        InputError
+            When an aircraft cannot fly level.
+        """
+        lattice = self.lattice(modes) if self.aerodynamics == "lattice" else None
+        forces = self.strip_theory(modes) if lattice is None else self._with_tail(lattice, modes)
+        steady = None
+        if self.wing.aircraft is not None:
+            steady = trim_forces(self, modes, self.trim(modes), lattice)
+        return AeroelasticSystem(modes.omega, forces, modes.damping, steady)
 
 
 def _panel_motion(component: ComponentModes, mesh: SegmentMesh, length: Real) -> PanelMotion:

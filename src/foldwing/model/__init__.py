@@ -8,6 +8,7 @@ quantities     numbers with units and bounds, resolved to SI floats
 record         base of all tables: frozen, unknown keys rejected with a suggestion
 material       materials, section properties of a strip of sheet
 parts, wing    the resolved wing that the physics uses
+aircraft       what the wing belongs to: fuselage, tail, trim
 schema         the tables of a model file as written; JSON schema
 resolve        from the tables to the wing
 library        the models and measurements shipped with the package
@@ -15,6 +16,7 @@ reader         from a file or the name of an example to the wing
 =============  =====================================================================
 """
 
+from foldwing.model.aircraft import Aircraft, Fuselage, Tail
 from foldwing.model.library import (
     ExampleInfo,
     example_names,
@@ -30,14 +32,17 @@ from foldwing.model.wing import Wing
 
 __all__ = [
     "Air",
+    "Aircraft",
     "Analysis",
     "ExampleInfo",
+    "Fuselage",
     "Hinge",
     "HingeKind",
     "Lattice",
     "Material",
     "PointMass",
     "Segment",
+    "Tail",
     "Wing",
     "example_names",
     "example_text",

@@ -314,3 +314,17 @@ WakeLength = Annotated[
     float, Quantity("a number of chords", "", "20", Bounds(above=0, at_most=1e4))
 ]
 Relaxation = Annotated[float, Quantity("a factor", "", "0.99", Bounds(at_least=0, below=1))]
+PitchInertia = Annotated[
+    float, Quantity("a mass moment of inertia", "kg*m^2", '"22.7e-6 kg*m^2"', _POSITIVE)
+]
+Acceleration = Annotated[float, Quantity("an acceleration", "m/s^2", '"9.81 m/s^2"', _POSITIVE)]
+LiftCoefficient = Annotated[float, Quantity("a lift coefficient", "", "1.2", _POSITIVE)]
+TailArm = Annotated[
+    float,
+    Quantity(
+        "a distance from the quarter chord of the wing aft to that of the tail",
+        "m",
+        '"25 cm"',
+        _POSITIVE,
+    ),
+]

@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 
 from foldwing.errors import InputError
+from foldwing.model.aircraft import QUARTER, Aircraft, quarter_chord
 from foldwing.model.faults import as_input_error, file_path, shown
 from foldwing.model.material import Material, strip_inertia, strip_properties
 from foldwing.model.parts import MID_CHORD, Hinge, HingeKind, Segment
 from foldwing.model.record import suggest
-from foldwing.model.schema import HingeTable, ModelFile, SegmentKeys, WingTable
+from foldwing.model.schema import AircraftTable, HingeTable, ModelFile, SegmentKeys, WingTable
 from foldwing.model.wing import Wing, in_file
 
 _SHEET = ("bending_stiffness", "torsion_stiffness", "mass_per_span", "inertia_per_span")
@@ -32,7 +33,7 @@ def resolved(model: ModelFile) -> Wing:
         if table.hinge is not None
     )
     with as_input_error(place=in_file):
-        return Wing(
+        clamped = Wing(
             title=model.title,
             segments=segments,
             hinges=hinges,
@@ -41,6 +42,59 @@ def resolved(model: ModelFile) -> Wing:
             analysis=model.analysis,
             lattice=model.lattice,
         )
+    if model.aircraft is None:
+        return clamped
+    return clamped.carried_by(_aircraft(model.aircraft, clamped))
+
+
+def _aircraft(table: AircraftTable, wing: Wing) -> Aircraft:
+    """Return the half aircraft, its parts in their places aft of the wing's elastic axis."""
+    share = 0.5 if table.figures == "full" else 1.0
+    tail = table.tail.model_dump() | {
+        "mass": share * table.tail.mass,
+        "pitch_inertia": share * table.tail.pitch_inertia,
+        "span": share * table.tail.span,
+        "x": _tail_place(table, wing),
+    }
+    fuselage = {
+        "mass": share * table.fuselage.mass,
+        "pitch_inertia": share * table.fuselage.pitch_inertia,
+    }
+    weights = [(share * table.tail.mass, float(tail["x"])), wing.mass_and_centre]
+    fuselage["x"] = _fuselage_place(table, wing, fuselage["mass"], weights)
+    common = {key: getattr(table, key) for key in Aircraft.model_fields if key not in _BODIES}
+    with as_input_error(("aircraft",)):
+        return Aircraft.model_validate({**common, "fuselage": fuselage, "tail": tail})
+
+
+_BODIES = ("fuselage", "tail")
+
+
+def _tail_place(table: AircraftTable, wing: Wing) -> float:
+    """Return where the elastic axis of the tail lies; its quarter chord is behind the wing's."""
+    tail, ahead = table.tail, quarter_chord(wing.segments[0])
+    to_axis = (tail.elastic_axis - QUARTER) * tail.chord
+    if tail.x is None:
+        assert table.tail_arm is not None
+        return ahead + table.tail_arm + to_axis
+    if tail.x - to_axis <= ahead:
+        limit = (
+            f"must put the quarter chord of the tail aft of the wing's: above {ahead + to_axis:g} m"
+        )
+        remedy = "Measure x aft of the wing's elastic axis; only tails behind the wing are known."
+        raise InputError("aircraft.tail.x", tail.x, limit, remedy)
+    return tail.x
+
+
+def _fuselage_place(
+    table: AircraftTable, wing: Wing, mass: float, others: list[tuple[float, float]]
+) -> float:
+    """Return where the fuselage balances the other parts about the centre of gravity."""
+    if table.fuselage.x is not None:
+        return table.fuselage.x
+    assert table.centre_of_gravity is not None
+    x_cg = quarter_chord(wing.segments[0]) + table.centre_of_gravity
+    return x_cg - sum(m * (x - x_cg) for m, x in others) / mass
 
 
 @dataclass(frozen=True)

@@ -1,14 +1,17 @@
 """The tables of a model file, as they are written."""
 
+import math
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, StrictBool, model_validator
 
 from foldwing.errors import InputError
+from foldwing.model.aircraft import TailTheory, Trim, WingTheory
 from foldwing.model.faults import fault
 from foldwing.model.material import Material
-from foldwing.model.parts import MOST_SPRINGS, Air, Analysis, Lattice, PointMass
+from foldwing.model.parts import MID_CHORD, MOST_SPRINGS, Air, Analysis, Lattice, PointMass
 from foldwing.model.quantities import (
+    Acceleration,
     Angle,
     ChordFraction,
     Count,
@@ -16,9 +19,14 @@ from foldwing.model.quantities import (
     HingeStiffness,
     InertiaPerSpan,
     Length,
+    LiftCoefficient,
     LiftSlope,
+    Mass,
     MassPerSpan,
+    PitchInertia,
+    Position,
     SectionStiffness,
+    TailArm,
 )
 from foldwing.model.record import Record
 
@@ -129,6 +137,61 @@ class WingTable(SegmentKeys):
         return self
 
 
+class FuselageTable(Record):
+    """The fuselage; without ``x`` it is placed so that the centre of gravity is as wanted."""
+
+    mass: Mass
+    pitch_inertia: PitchInertia
+    x: Position | None = None
+
+
+class TailTable(Record):
+    """The horizontal tail; without ``x`` it is placed by the tail arm."""
+
+    mass: Mass
+    pitch_inertia: PitchInertia
+    chord: Length
+    span: Length
+    x: Position | None = None
+    elastic_axis: ChordFraction = MID_CHORD
+    lift_slope: LiftSlope = 2.0 * math.pi
+
+
+class AircraftTable(Record):
+    """The aircraft that the wing belongs to; ``figures`` says whose the numbers are.
+
+    With "full" figures mass, inertia and span of fuselage and tail are those of the whole aircraft,
+    with "half" those of the half that belongs to the one wing.
+    """
+
+    fuselage: FuselageTable
+    tail: TailTable
+    figures: Literal["half", "full"] = "full"
+    tail_arm: TailArm | None = None
+    centre_of_gravity: Position | None = None
+    gravity: Acceleration = 9.81
+    trim: Trim = "force"
+    wing_aerodynamics: WingTheory = "theodorsen"
+    tail_aerodynamics: TailTheory = "theodorsen"
+    largest_lift_coefficient: LiftCoefficient = 1.2
+
+    @model_validator(mode="after")
+    def _places_its_parts(self) -> Self:
+        _check_place("tail_arm", self.tail_arm, "tail", self.tail.x, '"25 cm"')
+        cg = self.centre_of_gravity
+        _check_place("centre_of_gravity", cg, "fuselage", self.fuselage.x, '"12.5 mm"')
+        return self
+
+
+def _check_place(key: str, wanted: float | None, part: str, x: float | None, example: str) -> None:
+    """Refuse a part of the aircraft that is placed twice or not at all."""
+    remedy = f"Give either {key} = {example}, or x in [aircraft.{part}]."
+    if wanted is None and x is None:
+        raise fault((key,), None, f"must be given, or else x of the {part}", remedy)
+    if wanted is not None and x is not None:
+        raise fault((key,), wanted, f"must not be given together with x of the {part}", remedy)
+
+
 COMMANDS = {"wing": "foldwing modes, flutter, boundary, convergence or steady"}
 """By table that a model file may be about: what works on it."""
 
@@ -140,6 +203,7 @@ class ModelFile(Record):
     title: str = ""
     material: dict[str, Material] = Field(default_factory=dict)
     point_mass: tuple[PointMass, ...] = ()
+    aircraft: AircraftTable | None = None
     air: Air = Air()
     analysis: Analysis = Analysis()
     lattice: Lattice = Lattice()

@@ -6,6 +6,7 @@ from typing import Self
 from pydantic import model_validator
 
 from foldwing.errors import InputError
+from foldwing.model.aircraft import Aircraft
 from foldwing.model.faults import Path, as_input_error, fault, shown
 from foldwing.model.parts import Air, Analysis, Hinge, Lattice, PointMass, Segment
 from foldwing.model.quantities import ANGLE, Bounds, Quantity
@@ -22,7 +23,7 @@ _ROUND_OFF = 1e-9
 
 
 class Wing(Record):
-    """A wing of flat segments, clamped at the root of the first; never changed, only copied.
+    """A wing of flat segments, its root clamped or joined to an aircraft; only ever copied.
 
     Attributes
     ----------
@@ -38,6 +39,8 @@ class Wing(Record):
         How it is analysed.
     lattice : Lattice
         Mesh of the vortex lattice.
+    aircraft : Aircraft, optional
+        What the root is joined to; without it the root is clamped.
     title : str
         For reports.
     """
@@ -48,6 +51,7 @@ class Wing(Record):
     air: Air = Air()
     analysis: Analysis = Analysis()
     lattice: Lattice = Lattice()
+    aircraft: Aircraft | None = None
     title: str = ""
 
     @model_validator(mode="after")
@@ -128,6 +132,23 @@ class Wing(Record):
     def cumulative_angles(self) -> tuple[float, ...]:
         """Angle Psi_1..Psi_N of each segment to the first in rad; the first is 0."""
         return tuple(accumulate(self.fold_angles, initial=0.0))
+
+    @property
+    def mass_and_centre(self) -> tuple[float, float]:
+        """Mass of the wing in kg and where its centre lies aft of the elastic axis in m."""
+        parts = [(s.mass_per_span * s.span, s.mass_offset) for s in self.segments]
+        parts += [(point.mass, point.x) for point in self.point_masses]
+        mass = sum(m for m, _ in parts)
+        return mass, sum(m * x for m, x in parts) / mass
+
+    @property
+    def clamped(self) -> Self:
+        """The same wing with its root clamped, whatever it was joined to."""
+        return self if self.aircraft is None else self._with(aircraft=None)
+
+    def carried_by(self, aircraft: Aircraft) -> Self:
+        """Return this wing with its root joined to an aircraft."""
+        return self._with(aircraft=aircraft)
 
     def folded(self, *degrees: float | str) -> Self:
         """Return this wing with other fold angles.

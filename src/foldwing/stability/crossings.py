@@ -7,7 +7,7 @@ import numpy as np
 
 from foldwing.maths.arrays import Complex, Indices, Mask, Real
 from foldwing.stability.newton import Roots, polish_crossings, roots_at
-from foldwing.stability.path import EigenvaluePath, inverse_speeds, refined
+from foldwing.stability.path import EigenvaluePath, follow_path, refined
 from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.region import SMALLEST, Region
 
@@ -78,8 +78,7 @@ def in_range(path: EigenvaluePath, inverse: Complex, speed_range: tuple[float, f
     """Return which inverse speeds may belong to an airspeed of the range, with a margin."""
     slow, fast = speed_range
     size = np.abs(inverse)
-    margin = 2.0**path.power
-    wide = (size > fast**-path.power / margin) & (size < slow**-path.power * margin)
+    wide = (size > 1.0 / path.measure(2.0 * fast)) & (size < 1.0 / path.measure(slow / 2.0))
     return np.asarray(wide & (inverse.real > 0.0))
 
 
@@ -101,8 +100,9 @@ def seeds_on_ray(path: EigenvaluePath, region: Region, speed_range: tuple[float,
     crossing = s[rows, columns] + fraction * (s[rows + 1, columns] - s[rows, columns])
     k = np.exp(t[rows] + fraction * (t[rows + 1] - t[rows]))
     usable = in_range(path, crossing, speed_range) & (k > LEAST_FREQUENCY)
-    speed = crossing.real[usable] ** (-1.0 / path.power)
-    return Seeds(rows[usable] + ray.start, k[usable], speed)
+    speed = path.speed(crossing.real)
+    usable &= np.isfinite(speed)
+    return Seeds(rows[usable] + ray.start, k[usable], speed[usable])
 
 
 def flutter_roots(
@@ -149,7 +149,7 @@ def divergence_roots(
 
     The direction is taken a little to the right of p = 0, where Theodorsen's function is smooth.
     """
-    speed = _positive_speeds(path.inverse[0], path.power)
+    speed = _positive_speeds(path, path.inverse[0])
     slow, fast = speed_range
     speed = speed[(speed >= slow) & (speed <= fast)]
     at_zero = roots_at(problem, np.full(len(speed), SMALLEST, complex), speed)
@@ -160,15 +160,24 @@ def divergence_roots(
     )
 
 
-def _positive_speeds(inverse: Complex, power: int) -> Real:
+def _positive_speeds(path: EigenvaluePath, inverse: Complex) -> Real:
     """Return the airspeeds of real positive inverse speeds that are not round-off of the others."""
     size = np.abs(inverse)
     real = (np.abs(inverse.imag) < 1e-7 * size) & (inverse.real > 0.0)
-    real &= size > ROUND_OFF ** (power / 2.0) * size.max(initial=0.0)
-    return np.asarray(np.sort(inverse.real[real] ** (-1.0 / power)))
+    real &= size > ROUND_OFF ** (path.power / 2.0) * size.max(initial=0.0)
+    speed = path.speed(inverse.real[real])
+    least = (ROUND_OFF * path.shift) ** (1.0 / path.power)
+    return np.asarray(np.sort(speed[speed > least]))
 
 
-def divergence_speeds(problem: AeroelasticProblem) -> Real:
-    """Return every airspeed in m/s at which a root stands at p = 0, ascending."""
-    inverse, power = inverse_speeds(problem.pencil(np.array([SMALLEST + 0j])))
-    return _positive_speeds(inverse[0], power)
+def divergence_speeds(problem: AeroelasticProblem, fastest: float = 100.0) -> Real:
+    """Return every airspeed in m/s at which a root stands at p = 0, ascending.
+
+    Parameters
+    ----------
+    problem : AeroelasticProblem
+    fastest : float
+        The order of the airspeeds of interest, where the stiffness depends on p.
+    """
+    path = follow_path(problem, lambda t: t * (SMALLEST + 0j), np.ones(1), fastest)
+    return _positive_speeds(path, path.inverse[0])

@@ -4,16 +4,30 @@ At fixed p the problem T0 + U T1 + U^2 T2 is singular at a few airspeeds. With V
 V = U (with structural damping), det T(p, U) is a constant times the product of 1 - V s_j(p), where
 the s_j are the eigenvalues 1/V of the pencil. One set of s_j(p) along a path therefore gives the
 determinant on that path *for every airspeed at once*.
+
+T0 may depend on p and become singular: then the airspeeds are counted from a negative one. With
+V = shift + U^2 (or shift + U) everything holds as before, and T at V = 0, which is no airspeed,
+stands in place of T0.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from foldwing.maths.arrays import Complex, Mask, Real
 from foldwing.stability.problem import AeroelasticProblem, Pencil
+
+CERTAIN_TURN = 0.8
+"""Radians: the argument of a factor that turns by less between two points is beyond doubt."""
+
+TINY = 1e-300
+"""Keeps the logarithm of an inverse speed of zero finite."""
+
+SHIFT = 0.05
+"""Airspeed from which airspeeds are counted, as a fraction of the fastest, where T0 varies."""
 
 
 @dataclass(frozen=True)
@@ -26,11 +40,13 @@ class EigenvaluePath:
         Position along the path, ascending.
     p : array of complex, shape (m,)
     inverse : array of complex, shape (m, r)
-        s_j(p): T(p, U) is singular where U^power = 1/s_j.
+        s_j(p): T(p, U) is singular where V = 1/s_j.
     constant : array of complex, shape (m,)
-        det T0, scaled to unit size: the part of det T that no airspeed changes.
+        det T at V = 0, scaled to unit size: the part of det T that no airspeed changes.
     power : int
         2 without structural damping, else 1.
+    shift : float
+        V = shift + U^power.
     floor : float
         Inverse speeds below this belong to airspeeds of no interest and are matched loosely.
     """
@@ -40,25 +56,69 @@ class EigenvaluePath:
     inverse: Complex
     constant: Complex
     power: int
+    shift: float
     floor: float
 
+    def measure(self, speed: Real | float) -> Real:
+        """Return V of airspeeds in m/s."""
+        return np.asarray(self.shift + speed**self.power)
 
-def inverse_speeds(pencil: Pencil) -> tuple[Complex, int]:
-    """Return the inverse speeds s_j, shape (m, n power-dependent), and the power of U.
+    def speed(self, inverse: Real) -> Real:
+        """Return the airspeeds in m/s of real inverse speeds, nan where there is none."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            V = np.asarray(1.0 / inverse - self.shift)
+            return np.asarray(np.where(V > 0.0, V, np.nan) ** (1.0 / self.power))
 
-    Undamped: the n eigenvalues of -T0^-1 T2, s = 1/U^2. Damped: the 2 n of the companion matrix,
-    s = 1/U.
+
+class Factors(NamedTuple):
+    """The determinant of m pencils, det T = constant x product of 1 - V s_j up to its size.
+
+    Attributes
+    ----------
+    inverse : array of complex, shape (m, r)
+        Inverse speeds s_j.
+    constant : array of complex, shape (m,)
+        det T at V = 0, scaled to unit size.
+    power : int
+        2 without structural damping, else 1.
     """
-    T0, T1, T2 = _real_if_possible(pencil)
-    solve = _solver(T0)
+
+    inverse: Complex
+    constant: Complex
+    power: int
+
+
+def factors_of(pencil: Pencil, shift: float = 0.0) -> Factors:
+    """Return the factors of the determinant.
+
+    Undamped, the s_j are the n eigenvalues of -T(V = 0)^-1 T2; damped, the 2 n of a companion
+    matrix.
+    """
+    E, F, power = _linear(_real_if_possible(pencil))
+    if shift:
+        E = E + shift * F
+    if E.ndim == 3:
+        inverse, constant = np.linalg.eigvals(np.linalg.solve(E, F)), np.linalg.slogdet(E)[0]
+        return Factors(inverse.astype(complex), constant.astype(complex), power)
+    unit = np.array_equal(E, np.eye(len(E)))
+    inverse = np.linalg.eigvals(F if unit else np.linalg.inv(E) @ F)
+    return Factors(inverse.astype(complex), np.ones(len(F), complex), power)
+
+
+def _linear(pencil: Pencil) -> tuple[Complex, Complex, int]:
+    """Return E, F and the power of U in the linear form E x = V F x of the pencil.
+
+    E is two-dimensional when it does not depend on p.
+    """
+    T0, T1, T2 = pencil
     if T1 is None:
-        return np.asarray(np.linalg.eigvals(-solve(T2)), complex), 2
+        return T0, -T2, 2
     m, n, _ = T2.shape
-    companion = np.zeros((m, 2 * n, 2 * n), T2.dtype)
-    companion[:, :n, :n] = -solve(T1)
-    companion[:, :n, n:] = -solve(T2)
-    companion[:, n:, :n] = np.eye(n)
-    return np.asarray(np.linalg.eigvals(companion), complex), 1
+    F = np.zeros((m, 2 * n, 2 * n), T2.dtype)
+    F[:, :n, :n], F[:, :n, n:], F[:, n:, :n] = -T1, -T2, np.eye(n)
+    E = np.zeros((*T0.shape[:-2], 2 * n, 2 * n), T0.dtype)
+    E[..., :n, :n], E[..., n:, n:] = T0, np.eye(n)
+    return E, F, 1
 
 
 def _real_if_possible(pencil: Pencil) -> Pencil:
@@ -67,16 +127,6 @@ def _real_if_possible(pencil: Pencil) -> Pencil:
         return pencil
     real = (None if part is None else part.real for part in pencil)
     return Pencil._make(real)
-
-
-def _solver(T0: Complex) -> Callable[[Complex], Complex]:
-    """Return B -> T0^-1 B; nothing to do for the usual unit stiffness."""
-    if T0.ndim == 2:
-        if np.array_equal(T0, np.eye(len(T0))):
-            return lambda B: B
-        inverse = np.linalg.inv(T0)
-        return lambda B: inverse @ B
-    return lambda B: np.linalg.solve(T0, B)
 
 
 def follow_path(
@@ -98,9 +148,13 @@ def follow_path(
         Highest airspeed of interest in m/s.
     """
     p = point(parameter)
-    inverse, constant, power = _at(problem, p)
-    floor = fastest**-power
-    return EigenvaluePath(parameter, p, _matched(inverse, floor), constant, power, floor)
+    pencil = problem.pencil(p)
+    power = 2 if pencil.linear is None else 1
+    shift = 0.0 if pencil.constant.ndim == 2 else (SHIFT * fastest) ** power
+    inverse, constant, _ = factors_of(pencil, shift)
+    floor = 1.0 / (shift + fastest**power)
+    inverse = _matched(inverse, floor)
+    return EigenvaluePath(parameter, p, inverse, constant, power, shift, floor)
 
 
 def refined(
@@ -111,7 +165,7 @@ def refined(
 ) -> EigenvaluePath:
     """Return the path with the parameters ``extra`` inserted."""
     p = point(extra)
-    inverse, constant, _ = _at(problem, p)
+    inverse, constant, _ = factors_of(problem.pencil(p), path.shift)
     parameter = np.concatenate([path.parameter, extra])
     order = np.argsort(parameter, kind="stable")
     return replace(
@@ -121,14 +175,6 @@ def refined(
         inverse=_matched(np.vstack([path.inverse, inverse])[order], path.floor),
         constant=np.concatenate([path.constant, constant])[order],
     )
-
-
-def _at(problem: AeroelasticProblem, p: Complex) -> tuple[Complex, Complex, int]:
-    pencil = problem.pencil(p)
-    inverse, power = inverse_speeds(pencil)
-    if pencil.constant.ndim == 2:
-        return inverse, np.ones_like(p), power
-    return inverse, np.linalg.slogdet(pencil.constant)[0], power
 
 
 def _matched(inverse: Complex, floor: float) -> Complex:
@@ -169,7 +215,7 @@ def winding(path: EigenvaluePath, speeds: Real) -> tuple[Real, Mask]:
         0.8 rad and its chord passes nearer to zero than twice the estimated bend of the branch.
         Refine the path there.
     """
-    V = speeds[:, None, None] ** path.power
+    V = path.measure(speeds)[:, None, None]
     factors = 1.0 - V * path.inverse
     step = _logarithmic_steps(path)
     start = np.log(path.inverse[:-1] + TINY) + np.log(V)
@@ -182,13 +228,6 @@ def winding(path: EigenvaluePath, speeds: Real) -> tuple[Real, Mask]:
     constant = np.angle(path.constant[1:] / path.constant[:-1])
     doubtful |= np.abs(constant) > CERTAIN_TURN
     return angle.sum(axis=(1, 2)) + constant.sum(), doubtful
-
-
-CERTAIN_TURN = 0.8
-"""Radians: the argument of a factor that turns by less between two points is beyond doubt."""
-
-TINY = 1e-300
-"""Keeps the logarithm of an inverse speed of zero finite."""
 
 
 def _logarithmic_steps(path: EigenvaluePath) -> Complex:

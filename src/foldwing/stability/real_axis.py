@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from foldwing.maths.arrays import Complex, Indices, Real
 from foldwing.stability.newton import Roots, polish_roots, roots_at
-from foldwing.stability.path import EigenvaluePath, follow_path, inverse_speeds
+from foldwing.stability.path import EigenvaluePath, follow_path
 from foldwing.stability.problem import AeroelasticProblem, evaluate_with_derivatives
 from foldwing.stability.region import RIGHT_EDGE
 
@@ -47,7 +47,7 @@ def real_roots(problem: AeroelasticProblem, path: EigenvaluePath, speeds: Real) 
     them together do: two real eigenvalues may meet between two points and turn complex.
     """
     real = _real_inverse(path)[None]
-    V = speeds[:, None, None] ** path.power
+    V = path.measure(speeds)[:, None, None]
     factors = 1.0 - V * real
     whole = np.prod(1.0 - V * path.inverse, axis=2).real[:, :, None]
     case, seed = _sign_changes(np.concatenate([factors, whole], axis=2), path.parameter)
@@ -109,7 +109,7 @@ def _extrema(
 
     Where two branches come too near to tell them apart between two points, the path is refined.
     """
-    t, speed = path.parameter, _real_inverse(path) ** (-1.0 / path.power)
+    t, speed = path.parameter, path.speed(_real_inverse(path))
     slope = sign * _slopes(problem, path.p, np.where(speed < fastest, speed, np.nan))
     with np.errstate(invalid="ignore"):
         turning = (slope[:-1] < 0.0) & (slope[1:] > 0.0)
@@ -173,9 +173,10 @@ def _extremum(
 
 def _speed(problem: AeroelasticProblem, p: Complex, near: float) -> float:
     """Return the airspeed nearest to ``near`` at which the real ``p`` is a root."""
-    inverse, power = inverse_speeds(problem.pencil(p))
-    nearest = inverse[0][np.argmin(np.abs(inverse[0] * near**power - 1.0))]
-    return float(nearest.real ** (-1.0 / power))
+    path = follow_path(problem, lambda _: p, np.zeros(1), near)
+    inverse = path.inverse[0]
+    nearest = inverse[np.argmin(np.abs(inverse * path.measure(near) - 1.0))]
+    return float(path.speed(nearest.real))
 
 
 def _point(parameter: Real) -> Complex:

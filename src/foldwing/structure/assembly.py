@@ -17,6 +17,7 @@ from foldwing.maths.arrays import Real
 from foldwing.maths.rotations import rotation_about_x
 from foldwing.model import PointMass, Wing
 from foldwing.structure.beam import beam_modes
+from foldwing.structure.bodies import RigidBody, rigid_bodies
 from foldwing.structure.component import ComponentModes
 from foldwing.structure.hinges import (
     hinge_points,
@@ -24,6 +25,7 @@ from foldwing.structure.hinges import (
     relative_slope,
     slope_constraint,
 )
+from foldwing.structure.spanwise import Root
 
 
 @dataclass(frozen=True)
@@ -53,12 +55,25 @@ class Assembly:
 
     @cached_property
     def mass(self) -> Real:
-        """Mass matrix of the segments and point masses, shape (size, size)."""
+        """Mass matrix of the wing and of rigid bodies at its root, shape (size, size)."""
+        M, root = self.wing_mass.copy(), self.slices[0]
+        for body in self.bodies:
+            M[root, root] += body.mass_matrix(self.components[0])
+        return M
+
+    @cached_property
+    def wing_mass(self) -> Real:
+        """Mass matrix of the segments and point masses alone, shape (size, size)."""
         M = scipy.linalg.block_diag(*(c.mass for c in self.components))
         for point in self.wing.point_masses:
             where = self.slices[point.segment - 1]
             M[where, where] += _point_mass(point, self.components[point.segment - 1])
         return np.asarray(M)
+
+    @cached_property
+    def bodies(self) -> tuple[RigidBody, ...]:
+        """Rigid bodies at the root; none when it is clamped."""
+        return rigid_bodies(self.wing.aircraft)
 
     @cached_property
     def torsion_mass(self) -> Real:
@@ -160,9 +175,13 @@ def _point_mass(point: PointMass, component: ComponentModes) -> Real:
 
 
 def assemble(wing: Wing) -> Assembly:
-    """Return the assembly of a wing with beam segments; the first segment is clamped."""
+    """Return the assembly of a wing with beam segments.
+
+    The first segment is clamped, or moves with the aircraft that the wing belongs to.
+    """
+    first = Root.CLAMPED if wing.aircraft is None else Root.CARRIAGE
     components = tuple(
-        beam_modes(segment, wing.analysis, clamped=index == 0)
+        beam_modes(segment, wing.analysis, Root.FREE if index else first)
         for index, segment in enumerate(wing.segments)
     )
     return Assembly(wing, components)

@@ -9,10 +9,18 @@ from foldwing.maths.arrays import Real
 from foldwing.maths.quadrature import gauss_rule
 from foldwing.model import Analysis, Segment
 from foldwing.structure.component import SectionMotion
-from foldwing.structure.spanwise import SpanwiseFunctions, bending_functions, torsion_functions
+from foldwing.structure.spanwise import (
+    Root,
+    SpanwiseFunctions,
+    bending_functions,
+    torsion_functions,
+)
 
-IN_PLANE = 3
-"""In-plane rigid motions of a free segment: x and y translation, yaw about its origin."""
+IN_PLANE = {Root.CLAMPED: [], Root.CARRIAGE: [0], Root.FREE: [0, 1, 2]}
+"""In-plane rigid motions of a segment, of x and y translation and yaw about its origin."""
+
+_TWISTS = (0, 2)
+"""In-plane motions that the twist of a folded wing drives."""
 
 
 @dataclass(frozen=True)
@@ -23,19 +31,23 @@ class BeamModes:
     ----------
     segment : Segment
     plunge, twist : SpanwiseFunctions
-    clamped : bool
-        A clamped segment has no in-plane motion.
+    root : Root
+        How its inboard edge may move.
     """
 
     segment: Segment
     plunge: SpanwiseFunctions
     twist: SpanwiseFunctions
-    clamped: bool
+    root: Root
 
     @property
     def count(self) -> int:
         """Number n of coordinates."""
-        return self._out_of_plane + (0 if self.clamped else IN_PLANE)
+        return self._out_of_plane + len(self._in_plane)
+
+    @property
+    def _in_plane(self) -> list[int]:
+        return IN_PLANE[self.root]
 
     @property
     def _out_of_plane(self) -> int:
@@ -59,8 +71,7 @@ class BeamModes:
         M[torsion, torsion] = i * _gram(phi, phi, weights)
         M[bending, torsion] = -m * x_cg * _gram(h, phi, weights)
         M[torsion, bending] = M[bending, torsion].T
-        if not self.clamped:
-            M[in_plane, in_plane] = self._in_plane_mass()
+        M[in_plane, in_plane] = self._in_plane_mass()[np.ix_(self._in_plane, self._in_plane)]
         return M
 
     def _in_plane_mass(self) -> Real:
@@ -88,12 +99,18 @@ class BeamModes:
         _, torsion, in_plane = self._blocks
         M = np.zeros_like(self.mass)
         M[torsion, torsion] = self.mass[torsion, torsion]
-        if not self.clamped:
-            x_and_yaw = np.ix_(
-                [in_plane.start, in_plane.stop - 1], [in_plane.start, in_plane.stop - 1]
-            )
-            M[x_and_yaw] = self.mass[x_and_yaw]
+        twists = [in_plane.start + i for i, j in enumerate(self._in_plane) if j in _TWISTS]
+        x_and_yaw = np.ix_(twists, twists)
+        M[x_and_yaw] = self.mass[x_and_yaw]
         return M
+
+    @cached_property
+    def mass_centre_motion(self) -> Real:
+        """Displacement of the mass centre times the mass per coordinate, shape (3, n)."""
+        segment = self.segment
+        y, weights = gauss_rule(segment.span, self._quadrature_points)
+        u = self.displacement(np.full_like(y, segment.mass_offset), y)
+        return np.asarray(segment.mass_per_span * np.einsum("m,man->an", weights, u))
 
     @property
     def _quadrature_points(self) -> int:
@@ -106,9 +123,9 @@ class BeamModes:
         u = np.zeros((len(y), 3, self.count))
         u[:, 2, bending] = self.plunge.evaluate(y, 0)
         u[:, 2, torsion] = -x[:, None] * self.twist.evaluate(y, 0)
-        if not self.clamped:
-            u[:, 0, in_plane] = np.stack([np.ones_like(y), np.zeros_like(y), -y], axis=1)
-            u[:, 1, in_plane] = np.stack([np.zeros_like(y), np.ones_like(y), x], axis=1)
+        one, zero = np.ones_like(y), np.zeros_like(y)
+        u[:, 0, in_plane] = np.stack([one, zero, -y], axis=1)[:, self._in_plane]
+        u[:, 1, in_plane] = np.stack([zero, one, x], axis=1)[:, self._in_plane]
         return u
 
     def slopes(self, x: Real, y: Real) -> Real:
@@ -135,12 +152,12 @@ def _gram(f: Real, g: Real, weights: Real) -> Real:
     return (f * weights[:, None]).T @ g
 
 
-def beam_modes(segment: Segment, analysis: Analysis, clamped: bool) -> BeamModes:
+def beam_modes(segment: Segment, analysis: Analysis, root: Root) -> BeamModes:
     """Return the component modes of a beam segment in the basis that the analysis asks for."""
     L, basis = segment.span, analysis.basis
     return BeamModes(
         segment,
-        bending_functions(L, analysis.bending_modes, clamped, basis),
-        torsion_functions(L, analysis.torsion_modes, clamped, basis),
-        clamped,
+        bending_functions(L, analysis.bending_modes, root, basis),
+        torsion_functions(L, analysis.torsion_modes, root, basis),
+        root,
     )

@@ -16,8 +16,9 @@ class ComponentModes(Protocol):
     """Modes of one segment in its local axes; nothing downstream asks how they were computed.
 
     The n coordinates are the out-of-plane modes followed by the in-plane rigid motions (x and y
-    translation, yaw; none for the clamped segment). Points are given by x (m aft of the elastic
-    axis) and y (m outboard of the inboard edge), both of shape (m,).
+    translation, yaw; none for a clamped segment, x alone at the root of an aircraft). Points are
+    given by x (m aft of the elastic axis) and y (m outboard of the inboard edge), each of shape
+    (m,).
     """
 
     @property
@@ -35,6 +36,10 @@ class ComponentModes(Protocol):
     @property
     def torsion_mass(self) -> Real:
         """Part of the mass matrix that belongs to twisting motion, shape (n, n)."""
+
+    @property
+    def mass_centre_motion(self) -> Real:
+        """Displacement of the mass centre times the mass per coordinate, shape (3, n)."""
 
     def displacement(self, x: Real, y: Real) -> Real:
         """Return the local displacement per coordinate, shape (m, 3, n)."""

@@ -15,6 +15,9 @@ from foldwing.model import HingeKind
 from foldwing.structure.assembly import Assembly
 from foldwing.structure.component import SectionMotion
 
+AIRCRAFT_MOTIONS = ("x", "z", "pitch")
+"""Rigid motions of an aircraft: aft, up, and nose up about the centre of gravity."""
+
 
 @dataclass(frozen=True)
 class StructuralModes:
@@ -37,6 +40,8 @@ class StructuralModes:
         that round-off spoils the modes; below 1e-5 it is of no concern.
     labels : tuple of str
         Names of the modes where they are not to be counted anew.
+    rigid_labels : tuple of str
+        Names of the first rigid motions: those of an aircraft as a whole.
     """
 
     assembly: Assembly
@@ -46,6 +51,7 @@ class StructuralModes:
     damping: float = 0.0
     mismatch: float = 0.0
     labels: tuple[str, ...] = ()
+    rigid_labels: tuple[str, ...] = ()
 
     @property
     def count(self) -> int:
@@ -94,20 +100,24 @@ class StructuralModes:
 
     @cached_property
     def bending_share(self) -> Real:
-        """Share of the kinetic energy in bending, 0 to 1, shape (n,)."""
+        """Share of the kinetic energy of the wing that is in bending, 0 to 1, shape (n,)."""
         q = self.coordinates
         torsion = np.einsum("im,ij,jm->m", q, self.assembly.torsion_mass, q)
-        total = np.einsum("im,ij,jm->m", q, self.assembly.mass, q)
+        total = np.einsum("im,ij,jm->m", q, self.assembly.wing_mass, q)
         return np.asarray(np.clip(1.0 - torsion / total, 0.0, 1.0))
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """Names B1, B2, T1 ... by the larger share of kinetic energy; R1 ... for rigid motions."""
+        """Names B1, B2, T1 ... by the larger share of kinetic energy; R1 ... for rigid motions.
+
+        The rigid motions of an aircraft are called x, z and pitch (about the centre of gravity).
+        """
         if self.labels:
             return self.labels
         counts = {"B": 0, "T": 0, "R": 0}
-        names = []
-        for omega, share in zip(self.omega, self.bending_share, strict=True):
+        names = list(self.rigid_labels)
+        flexible = slice(len(names), None)
+        for omega, share in zip(self.omega[flexible], self.bending_share[flexible], strict=True):
             letter = "R" if omega == 0.0 else "B" if share >= 0.5 else "T"
             counts[letter] += 1
             names.append(f"{letter}{counts[letter]}")
@@ -115,6 +125,7 @@ class StructuralModes:
 
     def only(self, keep: Indices) -> "StructuralModes":
         """Return these modes with only the columns ``keep``, in that order."""
+        labels = tuple(self.names[column] for column in keep) if self.rigid_labels else ()
         return StructuralModes(
             self.assembly,
             self.fold_angles,
@@ -122,6 +133,7 @@ class StructuralModes:
             self.coordinates[:, keep],
             self.damping,
             self.mismatch,
+            labels,
         )
 
     def without(self, names: Sequence[str]) -> "StructuralModes":
@@ -164,7 +176,8 @@ def natural_modes(
     fold_angles : tuple of float, optional
         psi_2 .. psi_N in radians; those of the wing by default.
     count : int, optional
-        Number of modes; the analysis' ``system_modes`` by default, never more than there are.
+        Number of modes, besides the rigid motions of an aircraft; the analysis' ``system_modes`` by
+        default, never more than there are.
 
     Notes
     -----
@@ -176,9 +189,11 @@ def natural_modes(
     R = assembly.mass_factor
     C = scipy.linalg.solve_triangular(R, assembly.constraints(folds).T, trans="T").T
     Z = np.asarray(scipy.linalg.solve_triangular(R, null_space(C).basis))
-    rigid = _rigid_motions(assembly, Z)
+    rigid, names = _rigid_motions(assembly, Z, folds)
+    wanted += len(names)
     omega2, vectors = _elastic_modes(Z.T @ assembly.stiffness @ Z, rigid, wanted)
-    modes = _signed(Z @ np.hstack([rigid, vectors])[:, :wanted])
+    modes = Z @ np.hstack([rigid, vectors])[:, :wanted]
+    modes[:, len(names) :] = _signed(modes[:, len(names) :])
     stored = assembly.stored_energy(modes)
     stored[: rigid.shape[1]] = 0.0
     solved = np.concatenate([np.zeros(rigid.shape[1]), omega2])[:wanted]
@@ -191,17 +206,45 @@ def natural_modes(
         modes,
         wing.analysis.damping,
         float(mismatch.max(initial=0.0)),
+        rigid_labels=names,
     )
 
 
-def _rigid_motions(assembly: Assembly, Z: Real) -> Real:
+def _rigid_motions(
+    assembly: Assembly, Z: Real, folds: tuple[float, ...]
+) -> tuple[Real, tuple[str, ...]]:
     """Return an orthonormal basis of the motions in the null space Z that strain nothing.
 
-    Only a free hinge allows any while the root is clamped.
+    Those of an aircraft come first, with their names. Besides, only a free hinge allows any.
     """
-    if all(hinge.kind is not HingeKind.FREE for hinge in assembly.wing.hinges):
-        return np.zeros((Z.shape[1], 0))
-    return null_space(assembly.strains @ Z, scaled=False).basis
+    aircraft = assembly.wing.aircraft is not None
+    if not aircraft and all(hinge.kind is not HingeKind.FREE for hinge in assembly.wing.hinges):
+        return np.zeros((Z.shape[1], 0)), ()
+    basis = null_space(assembly.strains @ Z, scaled=False).basis
+    if not aircraft:
+        return basis, ()
+    still = StructuralModes(assembly, folds, np.zeros(basis.shape[1]), Z @ basis)
+    whole, size = np.linalg.qr(_as_a_whole(still))
+    whole *= np.sign(np.diagonal(size))
+    others = null_space(whole.T).basis
+    return basis @ np.hstack([whole, others]), AIRCRAFT_MOTIONS
+
+
+def _as_a_whole(still: StructuralModes) -> Real:
+    """Return how the motions that strain nothing combine to those of a rigid aircraft, (r, 3).
+
+    Translation aft and up, and nose-up pitch about the root's elastic axis. Made orthogonal to the
+    translations, the last is pitch about the centre of gravity.
+    """
+    moved, wanted = [], []
+    for index, segment in enumerate(still.assembly.wing.segments):
+        x, y = np.array([0.0, 0.0, segment.chord]), np.array([0.0, segment.span, 0.0])
+        at, zero = still.position(index, x, y), np.zeros(len(x))
+        unit = np.broadcast_to(np.eye(3)[:, [0, 2]], (len(x), 3, 2))
+        pitch = np.stack([at[:, 2], zero, -at[:, 0]], axis=1)
+        wanted.append(np.concatenate([unit, pitch[:, :, None]], axis=2).reshape(-1, 3))
+        moved.append(still.displacement(index, x, y).reshape(-1, still.count))
+    return np.asarray(np.linalg.lstsq(np.vstack(moved), np.vstack(wanted), rcond=None)[0])
 
 
 def _elastic_modes(K: Real, rigid: Real, wanted: int) -> tuple[Real, Real]:

@@ -8,6 +8,7 @@ frequencies converge exponentially with their number.
 """
 
 from dataclasses import dataclass
+from enum import Enum
 from functools import cache
 from typing import Protocol
 
@@ -16,6 +17,17 @@ from numpy.polynomial import Polynomial
 from scipy.special import eval_jacobi
 
 from foldwing.maths.arrays import Indices, Real
+
+
+class Root(Enum):
+    """How the inboard edge of a segment may move."""
+
+    CLAMPED = "clamped"
+    """Not at all."""
+    CARRIAGE = "carriage"
+    """With a symmetric aircraft: along x and z and in pitch, but neither sideways nor in roll."""
+    FREE = "free"
+    """In every way; a hinge holds it."""
 
 
 class SpanwiseFunctions(Protocol):
@@ -158,21 +170,26 @@ class Joined:
         return np.hstack([family.evaluate(y, derivative) for family in self.families])
 
 
-def bending_functions(length: float, count: int, clamped: bool, basis: str) -> SpanwiseFunctions:
+def bending_functions(length: float, count: int, root: Root, basis: str) -> SpanwiseFunctions:
     """Return the plunge functions of a segment.
 
-    A clamped segment has ``count`` elastic functions; a free one has its translation on top of
-    ``count`` others (the rotation about the hinge and ``count - 1`` elastic ones).
+    A clamped segment has ``count`` elastic functions; one on a carriage has its translation on top
+    of them, a free one its translation on top of ``count`` others (the rotation about the hinge and
+    ``count - 1`` elastic ones).
     """
+    if root is Root.FREE:
+        if basis == "converged":
+            return JacobiFunctions(length, count + 1, 0)
+        return Joined((Monomials(length, 2), BeamBending(length, count - 1, clamped=False)))
+    elastic: SpanwiseFunctions = BeamBending(length, count, clamped=True)
     if basis == "converged":
-        return JacobiFunctions(length, count if clamped else count + 1, 2 if clamped else 0)
-    if clamped:
-        return BeamBending(length, count, clamped=True)
-    return Joined((Monomials(length, 2), BeamBending(length, count - 1, clamped=False)))
+        elastic = JacobiFunctions(length, count, 2)
+    return elastic if root is Root.CLAMPED else Joined((Monomials(length, 1), elastic))
 
 
-def torsion_functions(length: float, count: int, clamped: bool, basis: str) -> SpanwiseFunctions:
-    """Return the twist functions of a segment: ``count``, of which a free one has one rigid."""
+def torsion_functions(length: float, count: int, root: Root, basis: str) -> SpanwiseFunctions:
+    """Return the twist functions of a segment: ``count``, one of them rigid unless clamped."""
+    clamped = root is Root.CLAMPED
     if basis == "converged":
         return JacobiFunctions(length, count, 1 if clamped else 0)
     if clamped:
