@@ -1,5 +1,6 @@
 """Several aerodynamic models that act on the same modes: a wing of one kind, a tail of another."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,9 +19,16 @@ class CombinedModel:
     parts : tuple of AerodynamicModel
         One or more, for the same modes and with the same reference length; time derivatives are
         taken as the first one takes them.
+    weights : tuple of float
+        What each part is multiplied by; one by default.
     """
 
     parts: tuple[AerodynamicModel, ...]
+    weights: tuple[float, ...] = ()
+
+    @property
+    def _weighted(self) -> Iterator[tuple[float, AerodynamicModel]]:
+        return zip(self.weights or (1.0,) * len(self.parts), self.parts, strict=True)
 
     @property
     def size(self) -> int:
@@ -49,16 +57,19 @@ class CombinedModel:
 
     def forces(self, p: Complex) -> Complex:
         """Return Qhat at the values ``p`` of shape (m,), as an array (m, n, n)."""
-        return np.asarray(sum(part.forces(p) for part in self.parts))
+        return np.asarray(sum(w * part.forces(p) for w, part in self._weighted))
 
     def forces_with_derivative(self, p: Complex) -> tuple[Complex, Complex]:
         """Return Qhat and dQhat/dp, each of shape (m, n, n)."""
-        pairs = [part.forces_with_derivative(p) for part in self.parts]
-        return np.asarray(sum(Q for Q, _ in pairs)), np.asarray(sum(dQ for _, dQ in pairs))
+        pairs = [(w, *part.forces_with_derivative(p)) for w, part in self._weighted]
+        return (
+            np.asarray(sum(w * Q for w, Q, _ in pairs)),
+            np.asarray(sum(w * dQ for w, _, dQ in pairs)),
+        )
 
     def steady_forces(self) -> Real:
         """Return Qhat(0), shape (n, n)."""
-        return np.asarray(sum(part.steady_forces() for part in self.parts))
+        return np.asarray(sum(w * part.steady_forces() for w, part in self._weighted))
 
     @property
     def has_apparent_mass(self) -> bool:
@@ -67,4 +78,4 @@ class CombinedModel:
 
     def apparent_mass(self) -> Real:
         """Return the apparent mass of still air (n, n)."""
-        return np.asarray(sum(part.apparent_mass() for part in self.parts))
+        return np.asarray(sum(w * part.apparent_mass() for w, part in self._weighted))

@@ -15,11 +15,12 @@ translations of an aircraft), is an exact zero root at every airspeed: it is rot
 and its column is divided by p as well, so that T keeps only the other roots.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from foldwing.aerodynamics.combined import CombinedModel
 from foldwing.aerodynamics.port import AerodynamicModel
 from foldwing.maths.arrays import Complex, Mask, Real
 from foldwing.stability.problem import Pencil, StillAir
@@ -193,6 +194,17 @@ class AeroelasticSystem:
             Pencil(constant, damping[0], np.where(rigid, 0.0, minus_B)),
             Pencil(constant_slope, damping[1], np.where(rigid, 0.0, slope)),
         )
+
+    def partly_carried(self, speed: float) -> "AeroelasticSystem":
+        """Return the problem of an aircraft too slow to carry its weight, below ``speed`` in m/s.
+
+        Its steady lift grows with U^2 and is the weight at ``speed``, where the problem passes into
+        this one; at rest it is that of still air.
+        """
+        if self.trim_forces is None:
+            return self
+        lifted = CombinedModel((self.aerodynamics, self.trim_forces), (1.0, speed**-2))
+        return replace(self, aerodynamics=lifted, trim_forces=None)
 
     def modal_vectors(self, p: Complex, speed: Real, x: Complex) -> Complex:
         """Return null vectors x of T (m, n) as modal coordinates q of unit 2-norm, shape (m, n)."""

@@ -1,6 +1,7 @@
 """Eigenvalues against airspeed: oscillating branches, real roots, and their certificate."""
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,7 +13,16 @@ from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.real_axis import births, real_axis_path, real_roots
 from foldwing.stability.status import Status
 from foldwing.stability.sweep import Sweep
-from foldwing.stability.tracking import Branches, Loci, branches_at, record, track
+from foldwing.stability.tracking import (
+    BORN,
+    TINY,
+    Beginning,
+    Branches,
+    Loci,
+    branches_at,
+    record,
+    track,
+)
 
 BESIDE = 1e-3
 """Relative change of p and U at which a pair just born is looked for."""
@@ -38,7 +48,7 @@ class RootLoci:
     status : array of int, shape (u, r)
     mode : array of int, shape (r,)
         Column of T that the branch starts from at rest; -1 for real roots, and for oscillating
-        ones born of two real roots.
+        ones born of two real roots; -2, -3 ... for the first, second ... of further roots.
     certified : array of bool, shape (u,)
         Whether the unstable eigenvalues listed are as many as the argument principle counts.
     """
@@ -53,6 +63,8 @@ class RootLoci:
 
     def by_mode(self, count: int) -> "RootLoci":
         """Return the loci with branch j in column j, absent ones empty, and the others behind.
+
+        Further roots come first among the others.
 
         Parameters
         ----------
@@ -76,11 +88,28 @@ class RootLoci:
             name: np.where(absent, nothing, getattr(self, name)[:, source])
             for name, nothing in empty.items()
         }
-        mode = np.concatenate([np.arange(count), np.full(len(others), -1)])
+        mode = np.concatenate([np.arange(count), self.mode[others]])
         return replace(self, mode=mode, **columns)
 
 
-def root_loci(problem: AeroelasticProblem, speeds: Real, sweep: Sweep) -> RootLoci:
+class Further(NamedTuple):
+    """What an aircraft has besides a clamped wing.
+
+    Attributes
+    ----------
+    roots : Roots
+        Oscillating roots that lead to no root at rest.
+    beginning : Beginning
+        The problem that holds at low airspeed; further and real roots are left out there.
+    """
+
+    roots: Roots
+    beginning: Beginning
+
+
+def root_loci(
+    problem: AeroelasticProblem, speeds: Real, sweep: Sweep, further: Further | None = None
+) -> RootLoci:
     """Follow all oscillating roots and add the real positive ones.
 
     Parameters
@@ -90,10 +119,17 @@ def root_loci(problem: AeroelasticProblem, speeds: Real, sweep: Sweep) -> RootLo
         In m/s, ascending, not negative.
     sweep : Sweep
         Of the same problem; its path around the unstable region counts the roots.
+    further : Further, optional
     """
     real_axis = real_axis_path(problem, float(speeds[-1]), sweep.region.edge)
-    loci = _with_born_pairs(problem, track(problem, speeds), sweep, real_axis)
-    real, residual = _real_columns(problem, real_axis, speeds)
+    lowest = 0.0 if further is None else further.beginning.until
+    if further is None:
+        loci = track(problem, speeds)
+    else:
+        loci = track(problem, speeds, further.beginning)
+        loci = _with_further(problem, loci, further)
+    loci = _with_born_pairs(problem, loci, sweep, real_axis)
+    real, residual = _real_columns(problem, real_axis, speeds, lowest)
     absent = np.isnan(real.real)
     values = np.hstack([loci.eigenvalue, real])
     return RootLoci(
@@ -103,8 +139,15 @@ def root_loci(problem: AeroelasticProblem, speeds: Real, sweep: Sweep) -> RootLo
         confidence=np.hstack([loci.confidence, np.where(absent, 0.0, 1.0)]),
         status=np.hstack([loci.status, np.where(absent, Status.ABSENT, Status.OK)]),
         mode=np.concatenate([loci.mode, np.full(real.shape[1], -1)]),
-        certified=_certified(problem, speeds, values, sweep),
+        certified=_certified(problem, speeds, values, sweep, lowest),
     )
+
+
+def _with_further(problem: AeroelasticProblem, loci: Loci, further: Further) -> Loci:
+    for index in range(len(further.roots.p)):
+        root = branches_at(problem, further.roots.take(np.array([index])))
+        loci = _with_branch(problem, loci, root, further.beginning.until, BORN - 1 - index)
+    return loci
 
 
 def _with_born_pairs(
@@ -139,11 +182,17 @@ def _just_born(problem: AeroelasticProblem, double: Roots, index: int) -> Roots:
     return polish_roots(problem, np.array([guess]), np.array([higher]))
 
 
-def _with_branch(problem: AeroelasticProblem, loci: Loci, root: Branches) -> Loci:
+def _with_branch(
+    problem: AeroelasticProblem,
+    loci: Loci,
+    root: Branches,
+    lowest: float = 0.0,
+    mode: int = BORN,
+) -> Loci:
     """Add the branch through one root, unless a branch passes through it already."""
-    above = np.flatnonzero(loci.speed > root.speed[0])
-    below = np.flatnonzero((loci.speed < root.speed[0]) & (loci.speed > 0.0))[::-1]
-    if len(above) == 0 or len(below) == 0:
+    above = np.flatnonzero(loci.speed >= root.speed[0])
+    below = np.flatnonzero((loci.speed < root.speed[0]) & (loci.speed >= max(lowest, TINY)))[::-1]
+    if len(above) == 0 or (len(below) == 0 and mode == BORN):
         return loci
     upward = record(problem, root, loci.speed[above])
     known = np.flatnonzero(np.isfinite(upward.eigenvalue[:, 0].real))
@@ -155,13 +204,13 @@ def _with_branch(problem: AeroelasticProblem, loci: Loci, root: Branches) -> Loc
     downward = record(problem, root, loci.speed[below])
     unborn = downward.status == Status.LEFT_DOMAIN
     downward = replace(downward, status=np.where(unborn, Status.ABSENT, downward.status))
-    return loci.joined(upward, above, downward, below)
+    return loci.joined(upward, above, downward, below, mode)
 
 
 def _real_columns(
-    problem: AeroelasticProblem, path: EigenvaluePath, speeds: Real
+    problem: AeroelasticProblem, path: EigenvaluePath, speeds: Real, lowest: float
 ) -> tuple[Complex, Real]:
-    moving = np.flatnonzero(speeds > 0.0)
+    moving = np.flatnonzero(speeds >= max(lowest, TINY))
     found = real_roots(problem, path, speeds[moving])
     width = max((len(roots.p) for roots in found), default=0)
     values = np.full((len(speeds), width), complex(np.nan, 0.0))
@@ -173,13 +222,17 @@ def _real_columns(
     return values, residual
 
 
-def _certified(problem: AeroelasticProblem, speeds: Real, values: Complex, sweep: Sweep) -> Mask:
+def _certified(
+    problem: AeroelasticProblem, speeds: Real, values: Complex, sweep: Sweep, lowest: float
+) -> Mask:
     """Compare the unstable roots listed with those counted; rest is stable by itself.
+
+    Nothing is claimed below the ``lowest`` airspeed at which the problem holds.
 
     At the very speed of a crossing its root is neither stable nor unstable: it is left out of the
     list, and the count is the smaller one of both sides.
     """
-    moving = np.flatnonzero(speeds > 0.0)
+    moving = np.flatnonzero(speeds >= max(lowest, TINY))
     U, roots = speeds[moving], values[moving]
     with np.errstate(invalid="ignore"):
         beyond = roots.real + sweep.region.threshold * np.abs(roots.imag)
@@ -190,6 +243,6 @@ def _certified(problem: AeroelasticProblem, speeds: Real, values: Complex, sweep
     counted = count_unstable(
         problem, sweep.path, sweep.region, np.concatenate([U * (1 - beside), U * (1 + beside)])
     )
-    result = np.ones(len(speeds), bool)
+    result = np.asarray(speeds == 0.0)
     result[moving] = listed == counted.reshape(2, -1).min(axis=0)
     return result

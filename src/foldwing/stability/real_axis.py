@@ -15,7 +15,10 @@ from foldwing.stability.path import EigenvaluePath, follow_path
 from foldwing.stability.problem import AeroelasticProblem, evaluate_with_derivatives
 from foldwing.stability.region import RIGHT_EDGE
 
-POINTS = 60
+LEAST = 1e-8
+"""The smallest p that is sought."""
+
+POINTS = 80
 """Points along the real axis."""
 
 SAME_ROOT = 1e-7
@@ -28,8 +31,8 @@ ZOOMS = 4
 def real_axis_path(
     problem: AeroelasticProblem, fastest: float, edge: float = RIGHT_EDGE
 ) -> EigenvaluePath:
-    """Return the inverse speeds along 1e-6 <= p <= ``edge`` on the real axis, parameter ln p."""
-    parameter = np.linspace(np.log(1e-6), np.log(edge), POINTS)
+    """Return the inverse speeds along 1e-8 <= p <= ``edge`` on the real axis, parameter ln p."""
+    parameter = np.linspace(np.log(LEAST), np.log(edge), POINTS)
     return follow_path(problem, _point, parameter, fastest)
 
 

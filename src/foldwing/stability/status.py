@@ -5,6 +5,9 @@ from enum import IntEnum
 
 from foldwing.maths.arrays import Complex, Real
 
+ELASTIC = "elastic"
+"""Motion of a root that is not one of a whole aircraft."""
+
 
 class Status(IntEnum):
     """How a computation of one point, branch or case ended."""
@@ -93,6 +96,9 @@ class FlutterPoint:
         of kinetic energy where the root does not lead to one (divergence, mergers).
     mode_confidence : float
         1 when the root was followed down to low speed; else that share, below 1.
+    motion : str
+        ``elastic``, or the name of a motion of a whole aircraft that the root belongs to: its
+        oscillations are listed, but never critical.
     """
 
     kind: str
@@ -107,3 +113,4 @@ class FlutterPoint:
     classification: str = ""
     mode: int = -1
     mode_confidence: float = 0.0
+    motion: str = ELASTIC

@@ -5,6 +5,7 @@ too far, or when Newton's method fails, and doubled when all goes well.
 """
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 import scipy.linalg
@@ -38,6 +39,13 @@ FAR_BEYOND = 1.5
 
 SMALLEST_STEP_NEAR_REAL = 0.02
 """The same for a branch near the real axis, which it meets with ever steeper slope."""
+
+
+BORN = -1
+"""In place of a mode: the branch starts from none; it was born of two real roots."""
+
+TINY = 1e-300
+"""The smallest airspeed that is not rest."""
 
 
 @dataclass(frozen=True)
@@ -236,7 +244,7 @@ class Loci:
     residual, confidence : array, shape (u, r)
     status : array of int, shape (u, r)
     mode : array of int, shape (r,)
-        Column of T that the branch starts from at rest; -1 when it does not start there.
+        Column of T that the branch starts from at rest; below 0 when it does not start there.
     """
 
     speed: Real
@@ -246,7 +254,14 @@ class Loci:
     status: Indices
     mode: Indices
 
-    def joined(self, upward: "Loci", above: Indices, downward: "Loci", below: Indices) -> "Loci":
+    def joined(
+        self,
+        upward: "Loci",
+        above: Indices,
+        downward: "Loci",
+        below: Indices,
+        mode: int = BORN,
+    ) -> "Loci":
         """Return these loci with one more branch, recorded at the speeds above and below."""
         shape = (len(self.speed), 1)
         empty = {
@@ -259,10 +274,24 @@ class Loci:
         for name, column in empty.items():
             column[above], column[below] = getattr(upward, name), getattr(downward, name)
             columns[name] = np.hstack([getattr(self, name), column])
-        return replace(self, mode=np.append(self.mode, -1), **columns)
+        return replace(self, mode=np.append(self.mode, mode), **columns)
 
 
-def track(problem: AeroelasticProblem, speeds: Real) -> Loci:
+class Beginning(NamedTuple):
+    """Another problem that holds at low airspeed, where it passes into the one of interest.
+
+    Attributes
+    ----------
+    problem : AeroelasticProblem
+    until : float
+        Airspeed in m/s at which both are the same.
+    """
+
+    problem: AeroelasticProblem
+    until: float
+
+
+def track(problem: AeroelasticProblem, speeds: Real, beginning: Beginning | None = None) -> Loci:
     """Follow every oscillating root from still air through ascending airspeeds.
 
     Parameters
@@ -270,20 +299,45 @@ def track(problem: AeroelasticProblem, speeds: Real) -> Loci:
     problem : AeroelasticProblem
     speeds : array, shape (u,)
         In m/s, ascending, not negative.
+    beginning : Beginning, optional
+        What to follow the roots in first.
     """
-    start = still_air_roots(problem)
-    branches = _launched(problem, start, float(speeds[-1]))
-    moving = record(problem, branches, speeds[speeds > 0.0], branches.speed)
+    if beginning is None:
+        beginning = Beginning(problem, 0.0)
+    start = still_air_roots(beginning.problem)
+    first = float(speeds[-1]) if beginning.until == 0.0 else beginning.until
+    branches = _launched(beginning.problem, start, first)
+    since = branches.speed
+    slow = speeds[(speeds > 0.0) & (speeds < beginning.until)]
+    branches, before = _recorded(beginning.problem, branches, slow, since)
+    branches = _passed_on(branches, beginning, problem)
+    fast = speeds[speeds >= max(beginning.until, TINY)]
+    branches, after = _recorded(problem, branches, fast, since)
     resting = int(np.count_nonzero(speeds == 0.0))
     shape = (resting, len(start.mode))
     return Loci(
         speed=np.asarray(speeds, float),
-        eigenvalue=np.vstack([np.tile(start.eigenvalue, (resting, 1)), moving.eigenvalue]),
-        residual=np.vstack([np.zeros(shape), moving.residual]),
-        confidence=np.vstack([np.ones(shape), moving.confidence]),
-        status=np.vstack([np.zeros(shape, int), moving.status]),
+        eigenvalue=np.vstack(
+            [np.tile(start.eigenvalue, (resting, 1)), before.eigenvalue, after.eigenvalue]
+        ),
+        residual=np.vstack([np.zeros(shape), before.residual, after.residual]),
+        confidence=np.vstack([np.ones(shape), before.confidence, after.confidence]),
+        status=np.vstack([np.zeros(shape, int), before.status, after.status]),
         mode=start.mode,
     )
+
+
+def _passed_on(branches: Branches, beginning: Beginning, problem: AeroelasticProblem) -> Branches:
+    """Return the branches in the problem of interest, where the first one passes into it.
+
+    The roots are the same there, but not the coordinates.
+    """
+    if beginning.until == 0.0:
+        return branches
+    at = _advanced_apart(beginning.problem, branches, beginning.until)
+    p = at.eigenvalue * problem.half_chord / at.speed
+    there = branches_at(problem, polish_roots(problem, p, at.speed))
+    return replace(there, status=np.where(at.alive, there.status, at.status))
 
 
 def record(
@@ -300,6 +354,13 @@ def record(
     since : float or array, shape (r,)
         Airspeed below which a branch is beyond what the problem holds for.
     """
+    return _recorded(problem, branches, speeds, since)[1]
+
+
+def _recorded(
+    problem: AeroelasticProblem, branches: Branches, speeds: Real, since: Real | float
+) -> tuple[Branches, Loci]:
+    """Return also where the branches have come to."""
     shape = (len(speeds), len(branches.speed))
     values, residual = np.full(shape, complex(np.nan, 0.0)), np.full(shape, np.nan)
     confidence, status = np.zeros(shape), np.zeros(shape, int)
@@ -315,7 +376,8 @@ def record(
         confidence[row, alive] = branches.confidence[alive]
         status[row] = np.where(branches.alive & beyond, Status.UNRESOLVED, branches.status)
     unknown = np.full(shape[1], -1)
-    return Loci(np.asarray(speeds, float), values, residual, confidence, status, unknown)
+    loci = Loci(np.asarray(speeds, float), values, residual, confidence, status, unknown)
+    return branches, loci
 
 
 def _launched(problem: AeroelasticProblem, start: StillAirRoots, fastest: float) -> Branches:
