@@ -77,7 +77,8 @@ def flight_modes(system: AeroelasticSystem, speed_range: tuple[float, float]) ->
         Airspeeds in m/s between which they are looked for.
     """
     trials = [_candidates(system, float(U)) for U in np.geomspace(*speed_range, TRIALS)]
-    names, guesses = [], []
+    names: list[str] = []
+    guesses: list[complex] = []
     both = [trial for trial in trials if trial.phugoid and trial.short_period]
     chosen = max(both, key=lambda trial: trial.separation, default=None)
     if chosen is not None:
@@ -86,8 +87,8 @@ def flight_modes(system: AeroelasticSystem, speed_range: tuple[float, float]) ->
         chosen = max((t for t in trials if t.phugoid), key=lambda trial: -abs(trial.phugoid))
         names, guesses = [PHUGOID], [chosen.phugoid]
     if chosen is None:
-        return FlightModes((), polish_roots(system, np.zeros(0) + 0j, np.zeros(0)))
-    p = np.array(guesses) * system.half_chord / chosen.speed
+        return FlightModes((), polish_roots(system, np.zeros(0, np.complex128), np.zeros(0)))
+    p = np.asarray(guesses, np.complex128) * (system.half_chord / chosen.speed)
     roots = polish_roots(system, p, np.full(len(p), chosen.speed))
     found = roots.converged & (np.abs(roots.p / p - 1.0) < NEAR) & (roots.p.imag > 0.0)
     kept = np.flatnonzero(found)

@@ -108,7 +108,7 @@ def run_modes(request: Request, output: Output) -> None:
 def run_flutter(request: Request, output: Output) -> None:
     """Compute flutter points and loci of one case."""
     text = model_text(request.model)
-    wing = request.wing(text)
+    wing = request.clamped_wing(text, "flutter")
     folds = request.one_case(wing)
 
     from foldwing.cli import reference

@@ -91,6 +91,10 @@ _COORDINATES = (
     variable("row", ("row",), "1", "panel along the chord, 1 at the leading edge", "integer"),
     variable("edge", ("edge",), "", "edge of a strip: inner or outer", "text"),
     variable("time", ("time",), "s", "time after the disturbance"),
+    variable("body", ("body",), "", "wing, fuselage, tail, or the aircraft as a whole", "text"),
+    variable("surface", ("surface",), "", "segment from the root, or the tail", "text"),
+    variable("clamped_mode", ("clamped_mode",), "1", "branch of the clamped wing", "integer"),
+    variable("clamped_point", ("clamped_point",), "1", "flutter point of it", "integer"),
 )
 
 _MODES = (
@@ -100,6 +104,10 @@ _MODES = (
     variable("bending_share", _MODE, "1", "share of bending in the energy of the mode"),
     variable("position", ("fold", "point", "axis"), "m", "position on the folded wing at rest"),
     variable("mode_shape", ("fold", "mode", "point", "axis"), "m", "displacement in the mode"),
+    variable("mass_centre", ("fold", "body", "axis"), "m", "centre of mass at rest"),
+    variable(
+        "mass_centre_shape", ("fold", "mode", "body", "axis"), "m", "its displacement in the mode"
+    ),
     Variable("status", (FOLD, _LOCUS), "1", "how the computation ended", "status"),
 )
 
@@ -126,6 +134,9 @@ _CASES = (
     variable("valid_from", FOLD, "m/s", "lowest airspeed for which the result holds"),
     variable("uncertified_modes", FOLD, "", "modes not resolved at the lowest airspeeds", "text"),
     variable("unstable_from_start", FOLD, "1", "unstable roots at the lowest airspeed", "integer"),
+    variable(
+        "unstable_motions", FOLD, "", "motions of the aircraft unstable from the start", "text"
+    ),
     variable("message", FOLD, "", "why the case failed or is doubtful", "text"),
 )
 
@@ -142,6 +153,7 @@ _POINTS = (
     variable("flutter_mode_confidence", _TABLE, "1", "confidence in the name of the mode"),
     variable("threshold", _TABLE, "1", "damping ratio at which the point is reported"),
     variable("point_residual", _TABLE, "1", "residual of the flutter point"),
+    variable("motion", _TABLE, "", "elastic, phugoid or short period", "text"),
     variable("flutter_shape", (*_TABLE, "point", "axis"), "m", "motion at the point", "complex"),
 )
 
@@ -239,9 +251,37 @@ _STEADY = (
     ),
 )
 
+_SURFACE: Dims = ("fold", "surface")
+_CLAMPED: Dims = ("clamped_point",)
+
+_FLIGHT = (
+    variable("surface_lift", _SURFACE, "N", "vertical lift of the surface of the half aircraft"),
+    variable("lift_share", _SURFACE, "1", "share of the surface in the weight"),
+    variable("slowest_speed", FOLD, "m/s", "airspeed below which level flight is out of reach"),
+    variable("trim_angle", ("fold", "speed"), "degree", "angle of attack of the wing"),
+    variable("trim_tail_angle", ("fold", "speed"), "degree", "angle of attack of the tail"),
+    variable(
+        "trim_lift_coefficient", ("fold", "speed", "surface"), "1", "coefficient of normal force"
+    ),
+    variable(
+        "clamped_eigenvalue",
+        ("speed", "clamped_mode"),
+        "rad/s",
+        "eigenvalue with the root clamped",
+        "complex",
+    ),
+    variable("clamped_branch_name", ("clamped_mode",), "", "name of its branch", "text"),
+    variable("clamped_kind", _CLAMPED, "", "root clamped: flutter or divergence", "text"),
+    variable("clamped_event", _CLAMPED, "", "root clamped: onset, recovery or merger", "text"),
+    variable("clamped_class", _CLAMPED, "", "root clamped: hump or coalescence", "text"),
+    variable("clamped_flutter_speed", _CLAMPED, "m/s", "root clamped: airspeed of the point"),
+    variable("clamped_flutter_frequency", _CLAMPED, "Hz", "root clamped: frequency of the point"),
+    variable("clamped_flutter_mode", _CLAMPED, "", "root clamped: mode of the point", "text"),
+)
+
 VARIABLES: Mapping[str, Variable] = {
     row.name: row
-    for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS, *_LOADS, *_LEVELS, *_STEADY)
+    for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS, *_LOADS, *_LEVELS, *_STEADY, *_FLIGHT)
 }
 """Every variable a dataset may hold."""
 
