@@ -8,6 +8,7 @@ quantities     numbers with units and bounds, resolved to SI floats
 record         base of all tables: frozen, unknown keys rejected with a suggestion
 material       materials, section properties of a strip of sheet
 parts, wing    the resolved wing that the physics uses
+flight         an aircraft in longitudinal flight: the table and its three forms
 schema         the tables of a model file as written; JSON schema
 resolve        from the tables to the wing
 library        the models and measurements shipped with the package
@@ -15,6 +16,14 @@ reader         from a file or the name of an example to the wing
 =============  =====================================================================
 """
 
+from foldwing.model.flight import (
+    Airframe,
+    DerivativesModel,
+    DerivativesTable,
+    FlightModel,
+    StateMatrixModel,
+    Surface,
+)
 from foldwing.model.library import (
     ExampleInfo,
     example_names,
@@ -24,20 +33,26 @@ from foldwing.model.library import (
 )
 from foldwing.model.material import Material, strip_inertia, strip_properties
 from foldwing.model.parts import Air, Analysis, Hinge, HingeKind, Lattice, PointMass, Segment
-from foldwing.model.reader import model_text, parse_model, read_model
+from foldwing.model.reader import model_text, parse_flight, parse_model, read_flight, read_model
 from foldwing.model.schema import json_schema
 from foldwing.model.wing import Wing
 
 __all__ = [
     "Air",
+    "Airframe",
     "Analysis",
+    "DerivativesModel",
+    "DerivativesTable",
     "ExampleInfo",
+    "FlightModel",
     "Hinge",
     "HingeKind",
     "Lattice",
     "Material",
     "PointMass",
     "Segment",
+    "StateMatrixModel",
+    "Surface",
     "Wing",
     "example_names",
     "example_text",
@@ -45,7 +60,9 @@ __all__ = [
     "list_examples",
     "measurement_names",
     "model_text",
+    "parse_flight",
     "parse_model",
+    "read_flight",
     "read_model",
     "strip_inertia",
     "strip_properties",

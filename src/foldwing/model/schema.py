@@ -6,6 +6,7 @@ from pydantic import Field, StrictBool, model_validator
 
 from foldwing.errors import InputError
 from foldwing.model.faults import fault
+from foldwing.model.flight import FlightTable
 from foldwing.model.material import Material
 from foldwing.model.parts import MOST_SPRINGS, Air, Analysis, Lattice, PointMass
 from foldwing.model.quantities import (
@@ -129,7 +130,10 @@ class WingTable(SegmentKeys):
         return self
 
 
-COMMANDS = {"wing": "foldwing modes, flutter, boundary, convergence or steady"}
+COMMANDS = {
+    "wing": "foldwing modes, flutter, boundary, convergence or steady",
+    "flight": "foldwing flight",
+}
 """By table that a model file may be about: what works on it."""
 
 
@@ -143,6 +147,7 @@ class ModelFile(Record):
     air: Air = Air()
     analysis: Analysis = Analysis()
     lattice: Lattice = Lattice()
+    flight: FlightTable | None = None
 
     @model_validator(mode="after")
     def _is_about_something(self) -> Self:
