@@ -9,7 +9,7 @@ from foldwing.flight.phugoid import drag_over_lift, simple_phugoid
 from foldwing.model import Airframe, FlightModel
 
 FOUR_STATES = "four states"
-WITHOUT_DRAG = "four states, no drag"
+WITHOUT_DRAG = "without drag"
 SIMPLE = "simple phugoid"
 
 
