@@ -65,8 +65,8 @@ def flight_against_speed(dataset: "xarray.Dataset") -> Picture | None:
     return Picture(
         "flight-against-speed",
         "The modes against the airspeed of level flight",
-        f"{subtitle(dataset)}. The phugoid slows down in proportion to 1/U, so that the product of "
-        "its frequency and airspeed (bottom left) hardly changes; dotted there: √2 g.",
+        f"{subtitle(dataset)}. Of a phugoid that oscillates the product of frequency and airspeed "
+        "(bottom left) hardly changes; dotted there: √2 g, the simple phugoid without drag.",
         [*panels, _product(dataset), _lift(dataset)],
         columns=2,
     )
