@@ -55,7 +55,7 @@ def test_json(cli, empty_folder):
     assert phugoid["time_to_double"] is None
     assert bare["modes"][0]["time_to_half"] is None
     assert len(simple["modes"]) == 1
-    assert [row["speed"] for row in answer["speeds"]] == [*range(25, 61, 5)] * 0 + [
+    assert [row["speed"] for row in answer["speeds"]] == [
         float(speed) for speed in range(25, 61, 5) for _ in range(3)
     ]
     assert answer["derivatives"]["M_u"] == 0.0
@@ -234,9 +234,9 @@ def test_an_aircraft_is_no_wing(cli):
 
 
 def test_hopeless_numbers_are_named(cli, empty_folder):
-    text = TEXT.replace('"1020 kg"', "1e308").replace("pitch_inertia", "pitch_inertia")
+    text = TEXT.replace('"1020 kg"', "1e308")
     answer = cli("flight", saved(empty_folder, text), "--json")
-    assert answer.status in (1, 2)
+    assert (answer.status, answer.out) == (1, "")
     assert "order of magnitude" in answer.err
 
 

@@ -7,7 +7,6 @@ C.16 takes the weight from X_w a second time: gravity acts through the pitch ang
 import math
 
 import numpy as np
-import pytest
 
 from foldwing.flight import flight_modes, simple_phugoid, state_matrix
 from foldwing.flight.phugoid import drag_over_lift

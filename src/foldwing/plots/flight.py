@@ -85,7 +85,7 @@ def _relative(dataset: "xarray.Dataset", motion: int) -> Panel:
     start = Marks(x[:1], y[:1], "square", _color(dataset, motion), "", 5.5)
     items = [*_path(dataset, motion, (x, y), (x_range, y_range), _TURNED), start, origin]
     labels = "ahead of steady flight (m)", "height above it (m)"
-    return Panel(*labels, items, x_range, y_range, x_ticks=_ticks(x_range))
+    return Panel(*labels, items, x_range, y_range, x_ticks=_ticks(x_range), equal=True)
 
 
 def _ticks(ends: Range) -> list[tuple[float, str]]:
