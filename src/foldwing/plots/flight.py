@@ -15,7 +15,7 @@ MODE_COLORS = {"phugoid": "series0", "short period": "series1", "third oscillati
 
 _ARROWS = 12
 """Equal intervals of time between arrows."""
-_SIZE = (2.9, PANEL_INCHES)
+_SIZE = (2.945, PANEL_INCHES)
 """Width and height of a panel in inches, of two beside each other."""
 _ARROW, _HEAD, _OPENING = 0.4, 0.075, 0.45
 """Length of an arrow and of its head in inches, and half the angle of the head in rad."""
