@@ -241,6 +241,17 @@ def test_paths_follow_from_the_motion(x):
         assert path.distance == pytest.approx(V * path.time + path.ahead)
 
 
+def test_an_oscillation_goes_on_around_the_steady_point():
+    """After a cycle it is where it was, only nearer: there is no drift."""
+    (phugoid, _) = flight_modes(state_matrix(airframe()))
+    path = flight_path(phugoid, 54.0)
+    cycle = len(path.time) // 2
+    assert path.time[cycle] == pytest.approx(phugoid.period)
+    left = np.exp(phugoid.growth * phugoid.period)
+    for values in (path.ahead, path.altitude, path.pitch):
+        assert values[cycle:] == pytest.approx(left * values[: cycle + 1])
+
+
 def test_a_phugoid_climbs_where_it_slows_down():
     (phugoid, _) = flight_modes(state_matrix(airframe(drag=False)))
     path = flight_path(phugoid, 54.0)
