@@ -74,7 +74,7 @@ def _show_clamped(console: Console, dataset: "xarray.Dataset") -> None:
 def _show_trim(console: Console, dataset: "xarray.Dataset") -> None:
     """Print how the weight is carried, and the angle of attack where the motions are shown."""
     share, lift = dataset["lift_share"].values[0], dataset["surface_lift"].values[0]
-    coefficient = dataset["trim_lift_coefficient"].values[0]
+    coefficient = dataset["surface_lift_coefficient"].values[0]
     at = shown_speeds(dataset)
     table = tables.new_table("lift", "share", "N", *(f"CL {_speed(dataset, i)}" for i in at))
     for index, name in enumerate(dataset["surface"].values.tolist()):

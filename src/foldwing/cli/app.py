@@ -307,3 +307,19 @@ def aircraft(
         trim=trim,
     )
     run_aircraft(request, Output(plot, out, force, json))
+
+
+@app.command()
+def flight(
+    model: options.Model,
+    speeds: options.FlightSpeeds = None,
+    plot: options.Plot = True,
+    out: options.Out = None,
+    force: options.Force = False,
+    json: options.Json = False,
+) -> None:
+    """Phugoid and short period of a rigid aircraft, its derivatives and flight paths."""
+    from foldwing.cli.commands import Output
+    from foldwing.cli.flight import FlightRequest, run_flight
+
+    run_flight(FlightRequest(model, speeds), Output(plot, out, force, json))

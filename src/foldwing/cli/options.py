@@ -212,6 +212,15 @@ Json = Annotated[
     typer.Option("--json", help="One JSON document on standard output; no files without --out."),
 ]
 
+FlightSpeeds = Annotated[
+    str | None,
+    typer.Option(
+        "--speeds",
+        metavar="A:B:STEP",
+        help="Airspeeds in m/s at which the modes are found too, in trim at each: 25:60:5.",
+    ),
+]
+
 
 def number(field: str, text: str | None, example: str) -> float | None:
     """Return the number that an option was given, None when it was left out."""

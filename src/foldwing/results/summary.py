@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from foldwing.results.convergence_table import convergence_answer
+from foldwing.results.flight_summary import flight_answer
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
 from foldwing.stability.status import Status
@@ -23,6 +24,8 @@ def answer(dataset: "xarray.Dataset") -> str:
         return convergence_answer(dataset)
     if dataset.attrs["kind"] == "steady":
         return _steady_answer(dataset)
+    if dataset.attrs["kind"] == "flight":
+        return flight_answer(dataset)
     if dataset.sizes.get("fold", 1) > 1:
         return _boundary_answer(dataset)
     return _flutter_answer(dataset)

@@ -137,7 +137,7 @@ def _trim_against_speed(level: Trim, speeds: Real) -> Variables:
     return {
         "trim_angle": (dims, np.degrees(level.incidence * inverse)[None]),
         "trim_tail_angle": (dims, np.degrees(level.tail_incidence * inverse)[None]),
-        "trim_lift_coefficient": ((*dims, "surface"), coefficient[None]),
+        "surface_lift_coefficient": ((*dims, "surface"), coefficient[None]),
     }
 
 
