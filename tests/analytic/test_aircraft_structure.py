@@ -10,6 +10,7 @@ import pytest
 from foldwing.model import Hinge, PointMass, read_model
 from foldwing.structure.assembly import assemble
 from foldwing.structure.modes import natural_modes
+from support import level_flight
 from support.aircraft import heavier, random_aircraft, with_aircraft
 
 NAME = "three-segment-aircraft"
@@ -19,32 +20,10 @@ def aircraft(*folds):
     return read_model(NAME).folded(*folds)
 
 
-def pieces(wing):
-    """Mass, x, z and own inertia in pitch of what the half aircraft is made of, in many points."""
-    result, y, z, turned = [], 0.0, 0.0, 0.0
-    for index, segment in enumerate(wing.segments):
-        turned += wing.hinges[index - 1].fold if index else 0.0
-        across, up = np.cos(turned), np.sin(turned)
-        spread = segment.inertia_per_span - segment.mass_per_span * segment.mass_offset**2
-        for s in (np.arange(2000) + 0.5) / 2000 * segment.span:
-            dm = segment.mass_per_span * segment.span / 2000
-            own = spread * segment.span / 2000
-            result.append((dm, segment.mass_offset, z + s * up, own))
-        for point in wing.point_masses:
-            if point.segment == index + 1:
-                result.append((point.mass, point.x, z + point.y * up, 0.0))
-        y, z = y + segment.span * across, z + segment.span * up
-    for body in (wing.aircraft.fuselage, wing.aircraft.tail):
-        result.append((body.mass, body.x, 0.0, body.pitch_inertia))
-    return np.array(result).T
-
-
 def rigid_body(wing):
     """Total mass, centre of gravity (x, z), and inertia in pitch about it."""
-    m, x, z, own = pieces(wing)
-    centre = (m * x).sum() / m.sum(), (m * z).sum() / m.sum()
-    inertia = (own + m * ((x - centre[0]) ** 2 + (z - centre[1]) ** 2)).sum()
-    return m.sum(), centre, inertia
+    body = level_flight.rigid_body(wing)
+    return body.mass, body.centre, body.inertia
 
 
 WINGS = {
