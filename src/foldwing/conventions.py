@@ -28,12 +28,19 @@ Damping
 -------
 The damping ratio is ``zeta = -Re(lambda) / |Im(lambda)|``, positive when stable and undefined for
 a real root, whose growth rate ``Re(lambda)`` in 1/s is always given.
+
+The flight of a rigid aircraft keeps the conventions of flight mechanics, see `foldwing.flight`:
+axes of the body, ``x`` forward and ``z`` down, and ``zeta = -Re(lambda) / |lambda|``.
 """
 
 import math
 
 DEGREE = math.pi / 180.0
 """One degree in radians."""
+
+
+STANDARD_GRAVITY = 9.80665
+"""m/s^2."""
 
 
 def hertz(angular_frequency: float) -> float:

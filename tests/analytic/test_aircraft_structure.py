@@ -11,7 +11,7 @@ from foldwing.model import Hinge, PointMass, read_model
 from foldwing.structure.assembly import assemble
 from foldwing.structure.modes import natural_modes
 from support import level_flight
-from support.aircraft import heavier, random_aircraft, with_aircraft
+from support.random_aircraft import heavier, random_aircraft, with_aircraft
 
 NAME = "three-segment-aircraft"
 

@@ -34,6 +34,7 @@ from foldwing.model import (
     strip_inertia,
     strip_properties,
 )
+from foldwing.model.reader import parse_file
 
 SECTION = {
     "span": 2.0,
@@ -385,7 +386,7 @@ def test_python_users_meet_the_same_words(build, words):
 def test_every_example_is_read():
     assert {e.name for e in list_examples()} == set(example_names()) >= {"three-segment", "goland"}
     for example in list_examples():
-        assert read_model(example.name).title == example.title
+        assert parse_file(example.text).title == example.title
         assert example.text == model_text(example.name) == example_text(f"{example.name}.toml")
         assert example.text.startswith("# "), f"{example.name} does not say where it comes from"
 

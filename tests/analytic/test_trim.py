@@ -9,7 +9,7 @@ from foldwing.aeroelastic.trim import LiftingSurfaces, trim
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
 from foldwing.model import PointMass, read_model
-from support.aircraft import random_aircraft, with_aircraft
+from support.random_aircraft import random_aircraft, with_aircraft
 
 NAME = "three-segment-aircraft"
 SPANS = np.array([0.14, 0.10, 0.06])

@@ -21,6 +21,7 @@ OPTIONS = {
     "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds", "--method", "--time-step"},
     "steady": (OF_A_MODEL - {"--basis"})
     | {"--alpha", "--speed", "--panels", "--spacing", "--gap", "--image"},
+    "flight": {"--speeds", "--plot", "--no-plot", "--out", "--force", "--json"},
     "boundary": OF_A_MODEL | OF_A_SEARCH | {"--measured", "--trace", "--jobs"},
     "convergence": OF_A_MODEL | OF_A_SEARCH | {"--vary", "--levels", "--jobs"},
 }

@@ -14,7 +14,7 @@ from foldwing.model import read_model
 from foldwing.stability.newton import polish_roots
 from foldwing.structure.assembly import assemble
 from foldwing.structure.modes import natural_modes
-from support.aircraft import random_aircraft, with_aircraft
+from support.random_aircraft import random_aircraft, with_aircraft
 from support.whole_aircraft import carriage_components, explicit_aircraft, free_components
 
 EVERY_MODE = 60

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from foldwing.cli.main import run
-from foldwing.model import parse_model
+from foldwing.model import DerivativesTable, Surface, parse_model
 from foldwing.model.quantities import Quantity
 from foldwing.model.record import Record
 from foldwing.model.schema import HingeTable, ModelFile, SegmentTable, WingTable
@@ -86,7 +86,8 @@ def run_commands(block):
         if line.startswith("foldwing "):
             words = shlex.split(line.split(">")[0], comments=True)[1:]
             draws = (
-                words[0] in ("modes", "flutter", "boundary", "steady") and "--no-plot" not in words
+                words[0] in ("modes", "flutter", "boundary", "steady", "flight")
+                and "--no-plot" not in words
             )
             assert run([*words, *(["--no-plot"] if draws else [])]) == 0, line
 
@@ -166,6 +167,9 @@ TABLES = [
     ("air", table("air"), set()),
     ("analysis", table("analysis"), set()),
     ("lattice", table("lattice"), set()),
+    ("flight", table("flight"), {"wing", "tail", "derivatives"}),
+    ("flight.wing and flight.tail", Surface, set()),
+    ("flight.derivatives", DerivativesTable, set()),
 ]
 
 

@@ -11,7 +11,7 @@ import pytest
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.stability.flutter import find_flutter, is_critical
 from foldwing.stability.newton import polish_roots
-from support.aircraft import cessna, rigid_system
+from support.random_aircraft import cessna, rigid_system
 from support.stability import example_modes, example_wing
 
 NAME = "three-segment-aircraft"

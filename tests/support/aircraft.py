@@ -1,101 +1,105 @@
-"""Aircraft for tests: random ones, and a multi-body Cessna 172 that hardly bends."""
+"""An aircraft of wing and tail by its forces, without derivatives: nonlinear equations of motion.
+
+Independent of `foldwing.flight`: written from forces, and differenced by the tests.
+"""
+
+import math
+from dataclasses import dataclass
 
 import numpy as np
 
-from foldwing.aeroelastic.wing import AeroelasticWing
-from foldwing.model import Air, Aircraft, Fuselage, Segment, Tail, Wing
-from support.random_wings import random_wing
+from foldwing.model import Airframe, Surface
 
-FOOT = 0.3048
+CESSNA = {
+    "mass": 1020.0,
+    "pitch_inertia": 838.0,
+    "speed": 54.0,
+    "gravity": 9.81,
+    "density": 1.2,
+    "centre_of_gravity": 0.0,
+    "tail_arm": 4.572,
+    "zero_lift_drag": 0.035,
+    "wing": Surface(span=10.9728, chord=1.524, span_efficiency=0.93),
+    "tail": Surface(span=3.048, chord=0.9144, span_efficiency=0.93),
+}
 
 
-def random_aircraft(rng):
-    """Return a half aircraft with a random wing; some have a centre of gravity far aft."""
-    wing = random_wing(rng)
-    mass, _ = wing.mass_and_centre
-    chord, span = wing.segments[0].chord, sum(s.span for s in wing.segments)
-    arm = chord * float(rng.uniform(2.0, 7.0))
-    tail_mass = mass * float(rng.uniform(0.05, 0.5))
-    body_mass = mass * float(np.exp(rng.uniform(np.log(1.0), np.log(10.0))))
-    tail = Tail(
-        mass=tail_mass,
-        pitch_inertia=tail_mass * (chord * float(rng.uniform(0.1, 0.4))) ** 2,
-        chord=chord * float(rng.uniform(0.4, 1.0)),
-        span=span * float(rng.uniform(0.15, 0.4)),
-        x=arm,
-        elastic_axis=float(rng.uniform(0.2, 0.6)),
-        lift_slope=float(rng.uniform(3.5, 6.3)),
-    )
-    fuselage = Fuselage(
-        mass=body_mass,
-        pitch_inertia=body_mass * (chord * float(rng.uniform(0.3, 2.0))) ** 2,
-        x=chord * float(rng.uniform(-0.5, 0.3)) - arm * tail_mass / body_mass,
-    )
-    return wing.carried_by(
-        Aircraft(
-            fuselage=fuselage,
-            tail=tail,
-            trim=("force", "force-and-moment")[int(rng.integers(2))],
-            tail_aerodynamics=("theodorsen", "quasi-steady")[int(rng.integers(2))],
+def airframe(**changes):
+    """Return the Cessna of the dissertation's table with some of its values changed."""
+    return Airframe(**{**CESSNA, **changes})
+
+
+@dataclass(frozen=True)
+class Nonlinear:
+    """Forces on an aircraft at (u, w, q, theta), in trim at its airspeed."""
+
+    craft: Airframe
+
+    def _slope(self, part):
+        given = part.lift_slope
+        if given is not None:
+            return given
+        return 2 * math.pi / (1 + 2 / (part.span_efficiency * part.span / part.chord))
+
+    def trim_lift(self):
+        """Lift coefficients of wing and tail: no net force down, no moment."""
+        c = self.craft
+        q = 0.5 * c.density * c.speed**2
+        areas = [part.span * part.chord for part in (c.wing, c.tail)]
+        forces = [q * area for area in areas]
+        behind = [c.centre_of_gravity, -(c.tail_arm - c.centre_of_gravity)]
+        moments = [force * arm for force, arm in zip(forces, behind, strict=True)]
+        return np.linalg.solve([forces, moments], [c.mass * c.gravity, 0.0])
+
+    def _drag(self, part, lift):
+        aspect = part.span / part.chord
+        return lift**2 / (math.pi * part.span_efficiency * aspect) if self.craft.drag else 0.0
+
+    def forces(self, u, w, q):
+        """Aerodynamic X and Z and the moment M about the centre of gravity."""
+        c = self.craft
+        speed, alpha = math.hypot(u, w), math.atan2(w, u)
+        pressure = 0.5 * c.density * speed**2
+        lift, moment = 0.0, 0.0
+        drag = pressure * c.wing.area * (c.zero_lift_drag if c.drag else 0.0)
+        for part, behind, start in zip(
+            (c.wing, c.tail),
+            (-c.centre_of_gravity, c.tail_arm - c.centre_of_gravity),
+            self.trim_lift(),
+            strict=True,
+        ):
+            still = start + self._slope(part) * alpha
+            turning = still + self._slope(part) * q * (behind + part.chord / 2) / speed
+            force = pressure * part.span * part.chord * turning
+            drag += pressure * part.span * part.chord * self._drag(part, still)
+            lift, moment = lift + force, moment - behind * force
+        X = lift * math.sin(alpha) - drag * math.cos(alpha)
+        Z = -lift * math.cos(alpha) - drag * math.sin(alpha)
+        return X, Z, moment
+
+    def rates(self, state):
+        """Rates of (u, w, q, theta) under a constant thrust along x that balances the drag."""
+        c = self.craft
+        u, w, q, theta = state
+        X, Z, M = self.forces(u, w, q)
+        thrust = -self.forces(c.speed, 0.0, 0.0)[0]
+        weight = c.mass * c.gravity
+        return np.array(
+            [
+                (X + thrust - weight * math.sin(theta)) / c.mass - q * w,
+                (Z + weight * math.cos(theta)) / c.mass + q * u,
+                M / c.pitch_inertia,
+                q,
+            ]
         )
-    )
 
-
-def with_aircraft(wing, **changes):
-    """Return a wing whose aircraft has other values."""
-    return wing.carried_by(wing.aircraft.model_copy(update=changes))
-
-
-def heavier(wing, factor):
-    """Return a wing whose fuselage has its mass and inertia multiplied."""
-    fuselage = wing.aircraft.fuselage
-    changes = {name: factor * getattr(fuselage, name) for name in ("mass", "pitch_inertia")}
-    return with_aircraft(wing, fuselage=fuselage.model_copy(update=changes))
-
-
-def rigid_system(wing, aerodynamics=""):
-    """Return the aeroelastic wing, its three rigid modes, and their system."""
-    model = AeroelasticWing(wing, aerodynamics)
-    modes = model.modes().only(np.arange(3))
-    return model, modes, model.system(modes)
-
-
-def cessna(inertia, gravity):
-    """Half a Cessna 172: span 36 ft, chord 5 ft, tail 10 x 3 ft, 15 ft between quarter chords.
-
-    Its 510 kg have their centre at the quarter chord, and the given pitch inertia about it. The
-    elastic axis stays at mid-chord. A light wing and tail share the mass and inertia with the
-    fuselage in an arbitrary way, which must not matter.
-    """
-    chord, span, arm, tail_chord = 5 * FOOT, 18 * FOOT, 15 * FOOT, 3 * FOOT
-    centre, per_span, per_span_inertia = -chord / 4, 1.0, (chord / 4) ** 2
-    tail_mass, tail_inertia, tail_x = 10.0, 5.0, centre + arm + tail_chord / 4
-    mass = 510.0 - per_span * span - tail_mass
-    x = centre + (per_span * span * centre - tail_mass * (tail_x - centre)) / mass
-    others = per_span_inertia * span + per_span * span * centre**2
-    others += tail_inertia + tail_mass * (tail_x - centre) ** 2
-    own = inertia - others - mass * (x - centre) ** 2
-    segment = Segment(
-        span=span,
-        chord=chord,
-        bending_stiffness=1e6,
-        torsion_stiffness=1e8,
-        mass_per_span=per_span,
-        inertia_per_span=per_span_inertia,
-    )
-    tail = Tail(
-        mass=tail_mass,
-        pitch_inertia=tail_inertia,
-        chord=tail_chord,
-        span=5 * FOOT,
-        x=tail_x,
-        lift_slope=3.8192,
-    )
-    aircraft = Aircraft(
-        fuselage=Fuselage(mass=mass, pitch_inertia=own, x=x),
-        tail=tail,
-        gravity=gravity,
-        wing_aerodynamics="quasi-steady",
-        tail_aerodynamics="quasi-steady",
-    )
-    return Wing(segments=(segment,), air=Air(density=1.2), aircraft=aircraft)
+    def jacobian(self):
+        """Rates differenced at level flight, shape (4, 4)."""
+        level = np.array([self.craft.speed, 0.0, 0.0, 0.0])
+        columns = []
+        for index in range(4):
+            step = np.zeros(4)
+            step[index] = 1e-5 * (self.craft.speed if index < 2 else 1.0)
+            difference = self.rates(level + step) - self.rates(level - step)
+            columns.append(difference / (2 * step[index]))
+        return np.array(columns).T

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from foldwing.aerodynamics.combined import CombinedModel
+from foldwing.aerodynamics.panel_loads import panel_loads
 from foldwing.aerodynamics.port import AerodynamicModel
 from foldwing.aerodynamics.strip import (
     StripForces,
@@ -21,7 +22,7 @@ from foldwing.aerodynamics.strip import (
 )
 from foldwing.aerodynamics.unsteady import LatticeModel
 from foldwing.aeroelastic.trim import LiftingSurfaces, Trim, trim
-from foldwing.maths.arrays import Real
+from foldwing.maths.arrays import Complex, Real
 from foldwing.maths.quadrature import gauss_rule
 from foldwing.model import Aircraft, Tail, Wing
 from foldwing.model.aircraft import QUARTER, quarter_chord
@@ -138,16 +139,42 @@ def trim_forces(
     lattice : LatticeModel, optional
         That of the wing, when it has one.
     """
+    if lattice is None:
+        return _trim_strips(model, modes, level)
+    wash = _faster_stream(model, modes, level)
     tail = _tail_trim_forces(model, level).projected(modes.by_segment[0])
-    if lattice is not None:
-        at_once = _at_once(model, modes, level)
-        strips = StripModel(model.half_chord, (at_once, tail))
-        return CombinedModel((_faster_stream(model, modes, level, lattice), strips))
-    parts = [
-        forces.projected(q)
-        for forces, q in zip(_segment_trim_forces(model, level), modes.by_segment, strict=True)
-    ]
-    return StripModel(model.half_chord, (*parts, tail))
+    strips = StripModel(model.half_chord, (*_at_once(model, modes, level), tail))
+    return CombinedModel((lattice.driven(np.zeros_like(wash), wash), strips))
+
+
+def trim_forces_by_surface(
+    model: "AeroelasticWing", modes: StructuralModes, level: Trim, p: Complex
+) -> Complex:
+    """Return the part of Qhat_0 from each segment and, last, from the tail: (m, s, n, n)."""
+    if model.aerodynamics != "lattice":
+        return _trim_strips(model, modes, level).forces_by_segment(p)
+    wash = _faster_stream(model, modes, level)
+    motion = model.panel_motion(modes)._replace(slope=np.zeros_like(wash), collocation=wash)
+    air = model.wing.air.density, model.half_chord
+    lattice = model.wing.lattice
+    loads = panel_loads(model.influence(modes), motion, model.load_lengths, air, lattice, p)
+    tail = _tail_trim_forces(model, level).projected(modes.by_segment[0])
+    strips = StripModel(model.half_chord, (*_at_once(model, modes, level), tail))
+    forces = strips.forces_by_segment(p)
+    forces[:, :-1] += loads.forces_by_segment()
+    return forces
+
+
+def tail_forces_alone(model: "AeroelasticWing", modes: StructuralModes, p: Complex) -> Complex:
+    """Return the part of Qhat from the tail, shape (m, n, n)."""
+    forces = tail_forces(model.wing, model.assembly.components[0])
+    return StripModel(model.half_chord, (forces.projected(modes.by_segment[0]),)).forces(p)
+
+
+def _trim_strips(model: "AeroelasticWing", modes: StructuralModes, level: Trim) -> StripModel:
+    own = zip(_segment_trim_forces(model, level), modes.by_segment, strict=True)
+    tail = _tail_trim_forces(model, level).projected(modes.by_segment[0])
+    return StripModel(model.half_chord, (*(forces.projected(q) for forces, q in own), tail))
 
 
 def _segment_trim_forces(model: "AeroelasticWing", level: Trim) -> list[StripForces]:
@@ -172,27 +199,30 @@ def _tail_trim_forces(model: "AeroelasticWing", level: Trim) -> StripForces:
     return trim_strip_forces(tail, load, np.array([tail.span]), motion, tail_lags(aircraft))
 
 
-def _faster_stream(
-    model: "AeroelasticWing", modes: StructuralModes, level: Trim, lattice: LatticeModel
-) -> LatticeModel:
-    """Return the forces of the circulation that a faster stream builds up.
+def _faster_stream(model: "AeroelasticWing", modes: StructuralModes, level: Trim) -> Real:
+    """Return the wash of a faster stream, alpha n_z u', on top of the steady one, -alpha n_z U."""
+    return level.incidence * _upward(model, modes)[:, None] * _surge(model, modes)
 
-    Its wash is alpha n_z u' on top of the steady one, -alpha n_z U.
+
+def _at_once(
+    model: "AeroelasticWing", modes: StructuralModes, level: Trim
+) -> tuple[StripForces, ...]:
+    """Return the forces of a faster stream past, and of the tilted lift on, the bound vortices.
+
+    Those on each segment apart.
     """
-    surge = _surge(model, modes)
-    wash = level.incidence * _upward(model, modes)[:, None] * surge
-    return lattice.driven(np.zeros_like(wash), wash)
-
-
-def _at_once(model: "AeroelasticWing", modes: StructuralModes, level: Trim) -> StripForces:
-    """Return the forces of a faster stream past, and of the tilted lift on, the bound vortices."""
-    rows = model.wing.lattice.chordwise
-    load = model.wing.air.density * np.tile(model.strips(modes).width, rows)
+    strips, rows = model.strips(modes), model.wing.lattice.chordwise
+    load = model.wing.air.density * np.tile(strips.width, rows)
     load = load * level.incidence * _steady_circulation(model, modes)
-    w, u = model.panel_motion(modes).vortex, _surge(model, modes)
-    coupling = u.T @ (load[:, None] * w)
-    zero = np.zeros_like(coupling)
-    return StripForces(model.half_chord, zero, coupling - coupling.T, zero, zero)
+    w, u, segment = model.panel_motion(modes).vortex, _surge(model, modes), strips.segment
+    zero = np.zeros((w.shape[1],) * 2)
+    result = []
+    for number in range(len(model.wing.segments)):
+        own = np.tile(segment == number, rows)
+        coupling = u[own].T @ (load[own, None] * w[own])
+        forces = StripForces(model.half_chord, zero, coupling - coupling.T, zero, zero)
+        result.append(forces)
+    return tuple(result)
 
 
 def _surge(model: "AeroelasticWing", modes: StructuralModes) -> Real:

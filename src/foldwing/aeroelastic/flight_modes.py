@@ -77,7 +77,8 @@ def flight_modes(system: AeroelasticSystem, speed_range: tuple[float, float]) ->
         Airspeeds in m/s between which they are looked for.
     """
     trials = [_candidates(system, float(U)) for U in np.geomspace(*speed_range, TRIALS)]
-    names, guesses = [], []
+    names: list[str] = []
+    guesses: list[complex] = []
     both = [trial for trial in trials if trial.phugoid and trial.short_period]
     chosen = max(both, key=lambda trial: trial.separation, default=None)
     if chosen is not None:
@@ -86,8 +87,8 @@ def flight_modes(system: AeroelasticSystem, speed_range: tuple[float, float]) ->
         chosen = max((t for t in trials if t.phugoid), key=lambda trial: -abs(trial.phugoid))
         names, guesses = [PHUGOID], [chosen.phugoid]
     if chosen is None:
-        return FlightModes((), polish_roots(system, np.zeros(0) + 0j, np.zeros(0)))
-    p = np.array(guesses) * system.half_chord / chosen.speed
+        return FlightModes((), polish_roots(system, np.zeros(0, np.complex128), np.zeros(0)))
+    p = np.asarray(guesses, np.complex128) * (system.half_chord / chosen.speed)
     roots = polish_roots(system, p, np.full(len(p), chosen.speed))
     found = roots.converged & (np.abs(roots.p / p - 1.0) < NEAR) & (roots.p.imag > 0.0)
     kept = np.flatnonzero(found)
@@ -110,7 +111,7 @@ class _Trial:
 
 
 def _candidates(system: AeroelasticSystem, speed: float) -> _Trial:
-    values, share = _quasi_steady_roots(system, speed)
+    values, share = _oscillations(system, speed)
     elastic = system.omega[~system.rigid]
     lowest = float(elastic[0]) if len(elastic) else np.inf
     whole = values[share > AS_A_WHOLE]
@@ -119,8 +120,23 @@ def _candidates(system: AeroelasticSystem, speed: float) -> _Trial:
     return _Trial(speed, phugoid, short, lowest)
 
 
-def _quasi_steady_roots(system: AeroelasticSystem, speed: float) -> tuple[Complex, Real]:
+def _oscillations(system: AeroelasticSystem, speed: float) -> tuple[Complex, Real]:
     """Return oscillating roots in rad/s, the slowest first, and the share of rigid motion."""
+    values, vectors = _quasi_steady(system, speed)
+    size = np.abs(values).max()
+    kept = np.flatnonzero(values.imag > 1e-9 * size)
+    kept = kept[np.argsort(np.abs(values[kept]))]
+    energy = np.abs(vectors[: system.size, kept]) ** 2
+    return values[kept], energy[system.rigid].sum(axis=0) / energy.sum(axis=0)
+
+
+def quasi_steady_roots(system: AeroelasticSystem, speed: float) -> Complex:
+    """Return all roots in rad/s with quasi-steady forces, neutral ones near zero, shape (2 n,)."""
+    return _quasi_steady(system, speed)[0]
+
+
+def _quasi_steady(system: AeroelasticSystem, speed: float) -> tuple[Complex, Complex]:
+    """Return eigenvalues and vectors (displacements over velocities) of one matrix."""
     n, b, k = system.size, system.half_chord, np.array([1j * LOW])
     air, omega = system.aerodynamics, system.omega
     rate = speed * b * air.forces(k)[0].imag / LOW
@@ -131,11 +147,7 @@ def _quasi_steady_roots(system: AeroelasticSystem, speed: float) -> tuple[Comple
     mass = np.eye(n) + air.apparent_mass()
     lower = np.linalg.solve(mass, np.hstack([stiffness, damping]))
     values, vectors = scipy.linalg.eig(np.vstack([np.eye(n, 2 * n, n), -lower]))
-    size = np.abs(values).max()
-    kept = np.flatnonzero(values.imag > 1e-9 * size)
-    kept = kept[np.argsort(np.abs(values[kept]))]
-    energy = np.abs(vectors[:n, kept]) ** 2
-    return values[kept], energy[system.rigid].sum(axis=0) / energy.sum(axis=0)
+    return np.asarray(values, complex), np.asarray(vectors, complex)
 
 
 def with_motions(

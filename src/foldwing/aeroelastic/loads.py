@@ -16,6 +16,7 @@ import numpy as np
 
 from foldwing.aerodynamics.lattice import Strips
 from foldwing.aerodynamics.panel_loads import PanelLoads, panel_corners, panel_loads
+from foldwing.aeroelastic.aircraft import tail_forces_alone, trim_forces_by_surface
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.maths.arrays import Complex, Indices, Real
 from foldwing.structure.modes import StructuralModes
@@ -49,7 +50,7 @@ class Loads:
     half_chord : float
         Reference length b of p in metres.
     forces : array, shape (m, segments, n, n)
-        Qhat from the air on each segment.
+        Qhat from the air on each segment; the tail of an aircraft comes last.
     panels : PanelLoads, optional
         Of unit motions; only a vortex lattice has panels.
     """
@@ -126,7 +127,7 @@ def loads_of(model: AeroelasticWing, modes: StructuralModes, motions: Motions) -
     """
     if model.aerodynamics != "lattice":
         forces = model.strip_theory(modes).forces_by_segment(motions.p)
-        return Loads(motions, model.half_chord, forces)
+        return Loads(motions, model.half_chord, forces + _of_steady_lift(model, modes, motions))
     panels = panel_loads(
         model.influence(modes),
         model.panel_motion(modes),
@@ -135,7 +136,22 @@ def loads_of(model: AeroelasticWing, modes: StructuralModes, motions: Motions) -
         model.wing.lattice,
         motions.p,
     )
-    return Loads(motions, model.half_chord, panels.forces_by_segment(), panels)
+    forces = panels.forces_by_segment()
+    if model.wing.aircraft is not None:
+        tail = tail_forces_alone(model, modes, motions.p)[:, None]
+        forces = np.concatenate([forces, tail], axis=1)
+        forces = forces + _of_steady_lift(model, modes, motions)
+    return Loads(motions, model.half_chord, forces, panels)
+
+
+def _of_steady_lift(
+    model: AeroelasticWing, modes: StructuralModes, motions: Motions
+) -> Complex | float:
+    """Return what the steady lift of an aircraft adds, divided by U^2, (m, segments, n, n)."""
+    if model.wing.aircraft is None:
+        return 0.0
+    forces = trim_forces_by_surface(model, modes, model.trim(modes), motions.p)
+    return np.asarray(forces / motions.speed[:, None, None, None] ** 2)
 
 
 @dataclass(frozen=True)

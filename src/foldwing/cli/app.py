@@ -63,6 +63,7 @@ def modes(
     fold_of: options.FoldOf = None,
     basis: options.Basis = None,
     measured: options.Measured = None,
+    clamped: options.Clamped = False,
     plot: options.Plot = True,
     out: options.Out = None,
     force: options.Force = False,
@@ -72,7 +73,7 @@ def modes(
     from foldwing.cli.commands import Output, run_modes
     from foldwing.cli.request import Request
 
-    request = Request(model, fold, fold_of, basis=basis, measured=measured)
+    request = Request(model, fold, fold_of, basis=basis, measured=measured, clamped=clamped)
     run_modes(request, Output(plot, out, force, json))
 
 
@@ -83,7 +84,7 @@ def flutter(
     fold_of: options.FoldOf = None,
     speeds: options.Speeds = None,
     max_speed: options.MaxSpeed = None,
-    aero: options.Aero = "strip",
+    aero: options.Aero = None,
     drop_mode: options.DropMode = None,
     panels: options.Panels = None,
     spacing: options.Spacing = None,
@@ -93,6 +94,7 @@ def flutter(
     damping_threshold: options.Threshold = None,
     method: options.Method = "sweep",
     time_step: options.TimeStep = None,
+    clamped: options.Clamped = False,
     plot: options.Plot = True,
     out: options.Out = None,
     force: options.Force = False,
@@ -118,6 +120,7 @@ def flutter(
         speeds=speeds,
         method=method,
         time_step=options.number("--time-step", time_step, "0.0003"),
+        clamped=clamped,
     )
     run_flutter(request, Output(plot, out, force, json))
 
@@ -128,7 +131,7 @@ def boundary(
     fold: options.Fold = None,
     fold_of: options.FoldOf = None,
     max_speed: options.MaxSpeed = None,
-    aero: options.Aero = "strip",
+    aero: options.Aero = None,
     drop_mode: options.DropMode = None,
     panels: options.Panels = None,
     spacing: options.Spacing = None,
@@ -138,6 +141,9 @@ def boundary(
     damping_threshold: options.Threshold = None,
     measured: options.Measured = None,
     trace: options.Trace = False,
+    clamped: options.Clamped = False,
+    tail_aero: options.TailAero = None,
+    trim: options.Trim = None,
     jobs: options.Jobs = "1",
     plot: options.Plot = True,
     out: options.Out = None,
@@ -164,6 +170,9 @@ def boundary(
         measured=measured,
         trace=trace,
         jobs=options.processes(jobs),
+        clamped=clamped,
+        tail_aero=tail_aero,
+        trim=trim,
     )
     run_boundary(request, Output(plot, out, force, json))
 
@@ -174,7 +183,7 @@ def convergence(
     fold: options.Fold = None,
     fold_of: options.FoldOf = None,
     max_speed: options.MaxSpeed = None,
-    aero: options.Aero = "strip",
+    aero: options.Aero = None,
     drop_mode: options.DropMode = None,
     panels: options.Panels = None,
     spacing: options.Spacing = None,
@@ -184,6 +193,7 @@ def convergence(
     damping_threshold: options.Threshold = None,
     vary: options.Vary = None,
     levels: options.Levels = None,
+    clamped: options.Clamped = False,
     jobs: options.Jobs = "1",
     plot: options.Plot = True,
     out: options.Out = None,
@@ -211,6 +221,7 @@ def convergence(
         jobs=options.processes(jobs),
         vary=vary,
         levels=levels,
+        clamped=clamped,
     )
     run_convergence(request, Output(plot, out, force, json))
 
@@ -226,6 +237,7 @@ def steady(
     spacing: options.Spacing = None,
     gap: options.Gap = None,
     image: options.Image = False,
+    clamped: options.Clamped = False,
     plot: options.Plot = True,
     out: options.Out = None,
     force: options.Force = False,
@@ -245,5 +257,75 @@ def steady(
         alpha=options.given_number("--alpha", alpha, "5"),
         speed=options.given_number("--speed", speed, "20"),
         image=image,
+        clamped=clamped,
     )
     run_steady(request, Output(plot, out, force, json))
+
+
+@app.command()
+def aircraft(
+    model: options.Model,
+    fold: options.Fold = None,
+    fold_of: options.FoldOf = None,
+    speeds: options.Speeds = None,
+    max_speed: options.MaxSpeed = None,
+    aero: options.Aero = None,
+    tail_aero: options.TailAero = None,
+    trim: options.Trim = None,
+    drop_mode: options.DropMode = None,
+    panels: options.Panels = None,
+    spacing: options.Spacing = None,
+    gap: options.Gap = None,
+    basis: options.Basis = None,
+    damping: options.Damping = None,
+    damping_threshold: options.Threshold = None,
+    plot: options.Plot = True,
+    out: options.Out = None,
+    force: options.Force = False,
+    json: options.Json = False,
+) -> None:
+    """Trim, flight modes, flutter and divergence of an aircraft, beside its wing clamped."""
+    from foldwing.cli.aircraft import run_aircraft
+    from foldwing.cli.commands import Output
+    from foldwing.cli.request import Request
+
+    request = Request(
+        model,
+        fold,
+        fold_of,
+        basis=basis,
+        aero=aero,
+        drop_mode=drop_mode,
+        panels=panels,
+        spacing=spacing,
+        gap=gap,
+        damping=options.number("--damping", damping, "0.01"),
+        damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
+        max_speed=options.number("--max-speed", max_speed, "60"),
+        speeds=speeds,
+        tail_aero=tail_aero,
+        trim=trim,
+    )
+    run_aircraft(request, Output(plot, out, force, json))
+
+
+@app.command()
+def flight(
+    model: options.Model,
+    fold: options.Fold = None,
+    fold_of: options.FoldOf = None,
+    speed: options.CruiseSpeed = None,
+    speeds: options.FlightSpeeds = None,
+    plot: options.Plot = True,
+    out: options.Out = None,
+    force: options.Force = False,
+    json: options.Json = False,
+) -> None:
+    """Phugoid and short period of a rigid aircraft, its derivatives and flight paths."""
+    from foldwing.cli.commands import Output
+    from foldwing.cli.flight import FlightRequest, run_flight
+
+    request = FlightRequest(
+        model, fold, fold_of, speed=options.number("--speed", speed, "54"), speeds=speeds
+    )
+    run_flight(request, Output(plot, out, force, json))

@@ -108,7 +108,7 @@ def run_modes(request: Request, output: Output) -> None:
 def run_flutter(request: Request, output: Output) -> None:
     """Compute flutter points and loci of one case."""
     text = model_text(request.model)
-    wing = request.wing(text)
+    wing = request.clamped_wing(text, "flutter")
     folds = request.one_case(wing)
 
     from foldwing.cli import reference
@@ -244,6 +244,7 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
         write_convergence_csv,
         write_csv,
         write_dataset,
+        write_flight_csv,
         write_frequencies_csv,
         write_steady_csv,
     )
@@ -260,6 +261,8 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
             write_convergence_csv(dataset, staging)
         if "lift_slope" in dataset:
             write_steady_csv(dataset, staging)
+        if "flight_eigenvalue" in dataset:
+            write_flight_csv(dataset, staging)
         if output.plot:
             from foldwing.plots import write_pictures, write_report
 

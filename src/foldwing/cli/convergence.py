@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 def run_convergence(request: Request, output: Output) -> None:
     """Compute how the flutter points of one case depend on mesh, wake, time step and modes."""
     text = model_text(request.model)
-    wing = request.wing(text)
+    wing = request.clamped_wing(text, "convergence")
     folds = request.one_case(wing, "convergence")
 
     from foldwing.results import Source

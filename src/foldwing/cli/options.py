@@ -49,13 +49,34 @@ MaxSpeed = Annotated[
     ),
 ]
 Aero = Annotated[
-    Literal["strip", "quasi-steady", "lattice"],
+    Literal["strip", "quasi-steady", "lattice"] | None,
     typer.Option(
         "--aero",
         metavar="NAME",
         help="strip (Theodorsen's theory), lattice (unsteady vortex lattice) or quasi-steady (for "
-        "comparison).",
+        "comparison). (default: strip, or what an aircraft's model says)",
     ),
+]
+TailAero = Annotated[
+    Literal["theodorsen", "quasi-steady"] | None,
+    typer.Option(
+        "--tail-aero",
+        metavar="NAME",
+        help="Aircraft: theodorsen or quasi-steady forces on the tail; not the model's.",
+    ),
+]
+Trim = Annotated[
+    Literal["force", "force-and-moment"] | None,
+    typer.Option(
+        "--trim",
+        metavar="NAME",
+        help="Aircraft: force (the wing carries all weight) or force-and-moment (the tail balances "
+        "it); not the model's.",
+    ),
+]
+Clamped = Annotated[
+    bool,
+    typer.Option("--clamped", help="Clamp the root of the wing of an aircraft."),
 ]
 DropMode = Annotated[
     list[str] | None,
@@ -189,6 +210,19 @@ Force = Annotated[bool, typer.Option("--force", help="Replace an existing result
 Json = Annotated[
     bool,
     typer.Option("--json", help="One JSON document on standard output; no files without --out."),
+]
+
+CruiseSpeed = Annotated[
+    str | None,
+    typer.Option("--speed", metavar="M/S", help="Airspeed of the flight, instead of the model's."),
+]
+FlightSpeeds = Annotated[
+    str | None,
+    typer.Option(
+        "--speeds",
+        metavar="A:B:STEP",
+        help="Airspeeds in m/s at which the modes are found too, in trim at each: 25:60:5.",
+    ),
 ]
 
 

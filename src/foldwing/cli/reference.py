@@ -25,7 +25,8 @@ def model_of(request: "Request", wing: Wing, text: str) -> "AeroelasticWing":
             raise InputError("--time-step", request.time_step, limit, remedy)
         return request.model_of(wing)
     if request.aero != "lattice":
-        limit = f"the reference is that of the vortex lattice, not of {request.aero} aerodynamics"
+        other = request.aero or "strip"
+        limit = f"the reference is that of the vortex lattice, not of {other} aerodynamics"
         raise InputError("--method", "reference", limit, "Add --aero lattice.")
     from foldwing.aeroelastic.reference import check_scheme, check_time_step
     from foldwing.studies.reference import reference_model

@@ -21,7 +21,7 @@ class Request:
     fold: str | None = None
     fold_of: list[str] | None = None
     basis: str | None = None
-    aero: str = "strip"
+    aero: str | None = None
     drop_mode: list[str] | None = None
     panels: str | None = None
     spacing: str | None = None
@@ -37,6 +37,9 @@ class Request:
     levels: list[str] | None = None
     method: str = "sweep"
     time_step: float | None = None
+    clamped: bool = False
+    tail_aero: str | None = None
+    trim: str | None = None
 
     @property
     def options(self) -> dict[str, Any]:
@@ -53,7 +56,7 @@ class Request:
             "damping_threshold": self.damping_threshold,
         }
         given = {key: value for key, value in changes.items() if value is not None}
-        wing = self._meshed(wing)
+        wing = self._meshed(self._carried(wing))
         try:
             return wing.with_analysis(**given) if given else wing
         except InputError as problem:
@@ -61,6 +64,37 @@ class Request:
             raise InputError(
                 f"--{key.replace('_', '-')}", problem.value, problem.limit, problem.remedy
             ) from None
+
+    def clamped_wing(self, text: str, command: str) -> Wing:
+        """Return the wing of the model file for a command that knows no aircraft."""
+        wing = self.wing(text)
+        if wing.aircraft is None:
+            return wing
+        limit = f"foldwing {command} studies wings whose root is clamped, and this is an aircraft"
+        remedy = "Use foldwing aircraft, or add --clamped to study its wing alone."
+        raise InputError("aircraft", "a table of this model", limit, remedy)
+
+    def aircraft_wing(self, text: str) -> Wing:
+        """Return the wing of the model file for a command that needs an aircraft."""
+        wing = self.wing(text)
+        if wing.aircraft is not None:
+            return wing
+        limit = "this command needs an [aircraft] table"
+        remedy = "Add it, or use foldwing flutter for a wing whose root is clamped."
+        raise InputError("aircraft", None, limit, remedy)
+
+    def _carried(self, wing: Wing) -> Wing:
+        """Return the wing with its aircraft as the options want it."""
+        options = {"tail_aerodynamics": self.tail_aero, "trim": self.trim}
+        given = {key: value for key, value in options.items() if value is not None}
+        if self.clamped or wing.aircraft is None:
+            for key, value in given.items():
+                option = "--trim" if key == "trim" else "--tail-aero"
+                limit = "belongs to an aircraft, and the root of this wing is clamped"
+                remedy = "Leave it out, or take a model with an [aircraft] table without --clamped."
+                raise InputError(option, value, limit, remedy)
+            return wing.clamped
+        return wing.carried_by(wing.aircraft.model_copy(update=given))
 
     def _meshed(self, wing: Wing) -> Wing:
         """Return the wing with the panels, their spacing and the gaps of the options."""
@@ -81,15 +115,16 @@ class Request:
 
     def model_of(self, wing: Wing) -> "AeroelasticWing":
         """Return the wing with the aerodynamics asked for."""
+        from foldwing.aeroelastic.wing import AeroelasticWing, default_aerodynamics
+
+        aero = self.aero or default_aerodynamics(wing)
         lattice = {"--panels": self.panels, "--spacing": self.spacing, "--gap": self.gap}
         for option, value in lattice.items():
-            if value is not None and self.aero != "lattice":
+            if value is not None and aero != "lattice":
                 limit = "belongs to the vortex lattice"
                 raise InputError(option, value, limit, "Add --aero lattice, or leave it out.")
-        from foldwing.aeroelastic.wing import AeroelasticWing
-
         dropped = tuple(name.upper() for name in self.drop_mode or ())
-        return AeroelasticWing(wing, self.aero, dropped)
+        return AeroelasticWing(wing, aero, dropped)
 
     def cases(self, wing: Wing) -> list[tuple[float, ...]]:
         """Return the fold angles in degrees of every case."""

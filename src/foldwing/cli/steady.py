@@ -41,7 +41,7 @@ class SteadyRequest(Request):
 def run_steady(request: SteadyRequest, output: Output) -> None:
     """Compute steady loads of every case of a grid of fold angles."""
     text = model_text(request.model)
-    wing = request.wing(text)
+    wing = request.clamped_wing(text, "steady")
     cases = request.cases(wing)
 
     from foldwing.results import Source

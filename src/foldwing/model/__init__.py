@@ -9,6 +9,7 @@ record         base of all tables: frozen, unknown keys rejected with a suggesti
 material       materials, section properties of a strip of sheet
 parts, wing    the resolved wing that the physics uses
 aircraft       what the wing belongs to: fuselage, tail, trim
+flight         an aircraft in longitudinal flight: the table and its three forms
 schema         the tables of a model file as written; JSON schema
 resolve        from the tables to the wing
 library        the models and measurements shipped with the package
@@ -17,6 +18,14 @@ reader         from a file or the name of an example to the wing
 """
 
 from foldwing.model.aircraft import Aircraft, Fuselage, Tail
+from foldwing.model.flight import (
+    Airframe,
+    DerivativesModel,
+    DerivativesTable,
+    FlightModel,
+    StateMatrixModel,
+    Surface,
+)
 from foldwing.model.library import (
     ExampleInfo,
     example_names,
@@ -26,15 +35,26 @@ from foldwing.model.library import (
 )
 from foldwing.model.material import Material, strip_inertia, strip_properties
 from foldwing.model.parts import Air, Analysis, Hinge, HingeKind, Lattice, PointMass, Segment
-from foldwing.model.reader import model_text, parse_model, read_model
+from foldwing.model.reader import (
+    model_text,
+    parse_file,
+    parse_flight,
+    parse_model,
+    read_flight,
+    read_model,
+)
 from foldwing.model.schema import json_schema
 from foldwing.model.wing import Wing
 
 __all__ = [
     "Air",
     "Aircraft",
+    "Airframe",
     "Analysis",
+    "DerivativesModel",
+    "DerivativesTable",
     "ExampleInfo",
+    "FlightModel",
     "Fuselage",
     "Hinge",
     "HingeKind",
@@ -42,6 +62,8 @@ __all__ = [
     "Material",
     "PointMass",
     "Segment",
+    "StateMatrixModel",
+    "Surface",
     "Tail",
     "Wing",
     "example_names",
@@ -50,7 +72,10 @@ __all__ = [
     "list_examples",
     "measurement_names",
     "model_text",
+    "parse_file",
+    "parse_flight",
     "parse_model",
+    "read_flight",
     "read_model",
     "strip_inertia",
     "strip_properties",

@@ -233,7 +233,7 @@ class Lattice(Record):
         Factor below 1 by which the circulation gathered in the last row of the wake fades in each
         step.
     image : bool
-        Whether a wall at the root mirrors the flow, as for a symmetric aircraft.
+        Whether a wall at the root mirrors the flow; in a file with an aircraft it does by default.
     spacing : str
         "uniform", "cosine" (denser at the ends of each segment) or "inset" (uniform, ending a
         quarter of a strip before a free edge).

@@ -317,7 +317,6 @@ Relaxation = Annotated[float, Quantity("a factor", "", "0.99", Bounds(at_least=0
 PitchInertia = Annotated[
     float, Quantity("a mass moment of inertia", "kg*m^2", '"22.7e-6 kg*m^2"', _POSITIVE)
 ]
-Acceleration = Annotated[float, Quantity("an acceleration", "m/s^2", '"9.81 m/s^2"', _POSITIVE)]
 LiftCoefficient = Annotated[float, Quantity("a lift coefficient", "", "1.2", _POSITIVE)]
 TailArm = Annotated[
     float,
@@ -328,3 +327,64 @@ TailArm = Annotated[
         _POSITIVE,
     ),
 ]
+Airspeed = Annotated[
+    float, Quantity("an airspeed", "m/s", '"54 m/s"', Bounds(at_least=1e-3, at_most=1e5))
+]
+Acceleration = Annotated[float, Quantity("an acceleration", "m/s^2", '"9.81 m/s^2"', _POSITIVE)]
+SpanEfficiency = Annotated[float, Quantity("a span efficiency", "", "0.93", _POSITIVE)]
+DragCoefficient = Annotated[float, Quantity("a drag coefficient", "", "0.035", Bounds(at_least=0))]
+ForceDerivative = Annotated[float, Quantity("a force per velocity", "N*s/m", '"-150 N*s/m"')]
+MomentDerivative = Annotated[
+    float, Quantity("a moment per velocity, or a force per pitch rate", "N*s", '"-180 N*s"')
+]
+PitchDamping = Annotated[float, Quantity("a moment per pitch rate", "N*m*s", '"-5000 N*m*s"')]
+
+
+@dataclass(frozen=True)
+class Square:
+    """A square matrix of finite numbers, written as a list of its rows."""
+
+    size: int
+
+    def parse(self, value: object) -> tuple[tuple[float, ...], ...]:
+        """Return the rows, or raise the fault that names limit and remedy."""
+        if not isinstance(value, list | tuple) or len(value) != self.size:
+            raise self._fault((), value)
+        return tuple(self._row(index, row) for index, row in enumerate(value))
+
+    def _row(self, index: int, row: object) -> tuple[float, ...]:
+        if not isinstance(row, list | tuple) or len(row) != self.size:
+            raise self._fault((index,), row)
+        return tuple(self._number(index, column, entry) for column, entry in enumerate(row))
+
+    def _number(self, row: int, column: int, entry: object) -> float:
+        if isinstance(entry, numbers.Real) and not isinstance(entry, bool):
+            number = _as_float(entry)
+            if math.isfinite(number):
+                return number
+        limit = "must be a number, finite"
+        raise fault((row, column), shown(entry), limit, "Write a number without quotes.")
+
+    def _fault(self, path: tuple[int, ...], value: object) -> Exception:
+        what = "a row" if path else "a list of rows"
+        limit = f"must be {what} of a matrix of {self.size} x {self.size} numbers"
+        zeros = "[" + ", ".join("0" * self.size) + "]"
+        remedy = f"Write {self.size} rows of {self.size} numbers: [{zeros}, ...]."
+        return fault(path, shown(value), limit, remedy)
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Validate with `parse`."""
+        return core_schema.no_info_plain_validator_function(self.parse)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """Return the JSON schema: a list of rows."""
+        length = {"minItems": self.size, "maxItems": self.size}
+        row = {"type": "array", "items": {"type": "number"}, **length}
+        return {"type": "array", "items": row, **length}
+
+
+StateMatrix = Annotated[tuple[tuple[float, ...], ...], Square(4)]

@@ -1,4 +1,4 @@
-"""Reading a wing from a TOML file, or from one of the examples shipped with the package."""
+"""Reading a model from a TOML file, or from one of the examples shipped with the package."""
 
 import re
 import tomllib
@@ -6,6 +6,7 @@ from pathlib import Path
 
 from foldwing.errors import InputError
 from foldwing.model.faults import as_input_error
+from foldwing.model.flight import FlightModel, resolved_flight
 from foldwing.model.library import example_names, example_text
 from foldwing.model.record import suggest
 from foldwing.model.resolve import resolved
@@ -73,6 +74,43 @@ def parse_model(text: str, source: str = "MODEL") -> Wing:
         When the model cannot be used, or has no wing; it names the field.
     """
     return resolved(parse_file(text, source))
+
+
+def read_flight(source: str | Path) -> FlightModel:
+    """Return the aircraft in longitudinal flight of a TOML file or of a shipped example.
+
+    Parameters
+    ----------
+    source : str or Path
+        Path of a model file, or the name of a shipped example.
+
+    Raises
+    ------
+    InputError
+        When the model cannot be read or used, or has no table [flight]; it names the field.
+    """
+    return parse_flight(model_text(source), str(source))
+
+
+def parse_flight(text: str, source: str = "MODEL") -> FlightModel:
+    """Return the aircraft in longitudinal flight described by TOML text.
+
+    Parameters
+    ----------
+    text : str
+        The model.
+    source : str
+        Name of the text for error messages.
+
+    Raises
+    ------
+    InputError
+        When the model cannot be used, or has no table [flight]; it names the field.
+    """
+    model = parse_file(text, source)
+    if model.flight is None:
+        raise model.missing("flight")
+    return resolved_flight(model.flight, model.title, model.air)
 
 
 def parse_file(text: str, source: str = "MODEL") -> ModelFile:

@@ -44,6 +44,8 @@ def resolved(model: ModelFile) -> Wing:
         )
     if model.aircraft is None:
         return clamped
+    if "image" not in model.lattice.model_fields_set:
+        clamped = clamped.with_lattice(image=True)
     return clamped.carried_by(_aircraft(model.aircraft, clamped))
 
 

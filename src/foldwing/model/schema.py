@@ -5,13 +5,16 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, StrictBool, model_validator
 
+from foldwing.conventions import STANDARD_GRAVITY
 from foldwing.errors import InputError
 from foldwing.model.aircraft import TailTheory, Trim, WingTheory
 from foldwing.model.faults import fault
+from foldwing.model.flight import FlightTable
 from foldwing.model.material import Material
 from foldwing.model.parts import MID_CHORD, MOST_SPRINGS, Air, Analysis, Lattice, PointMass
 from foldwing.model.quantities import (
     Acceleration,
+    Airspeed,
     Angle,
     ChordFraction,
     Count,
@@ -169,11 +172,12 @@ class AircraftTable(Record):
     figures: Literal["half", "full"] = "full"
     tail_arm: TailArm | None = None
     centre_of_gravity: Position | None = None
-    gravity: Acceleration = 9.81
+    gravity: Acceleration = STANDARD_GRAVITY
     trim: Trim = "force"
     wing_aerodynamics: WingTheory = "theodorsen"
     tail_aerodynamics: TailTheory = "theodorsen"
     largest_lift_coefficient: LiftCoefficient = 1.2
+    cruise_speed: Airspeed | None = None
 
     @model_validator(mode="after")
     def _places_its_parts(self) -> Self:
@@ -192,7 +196,10 @@ def _check_place(key: str, wanted: float | None, part: str, x: float | None, exa
         raise fault((key,), wanted, f"must not be given together with x of the {part}", remedy)
 
 
-COMMANDS = {"wing": "foldwing modes, flutter, boundary, convergence or steady"}
+COMMANDS = {
+    "wing": "foldwing modes, flutter, boundary, convergence, steady or aircraft",
+    "flight": "foldwing flight",
+}
 """By table that a model file may be about: what works on it."""
 
 
@@ -207,6 +214,7 @@ class ModelFile(Record):
     air: Air = Air()
     analysis: Analysis = Analysis()
     lattice: Lattice = Lattice()
+    flight: FlightTable | None = None
 
     @model_validator(mode="after")
     def _is_about_something(self) -> Self:

@@ -12,6 +12,8 @@ A picture is described once (`picture`) and drawn by two renderers.
 `steady`                    circulation of a steady wing
 `determinant`               zero lines of the determinant
 `convergence`               airspeeds against the fineness of the computation
+`flight`                    flight paths of a rigid aircraft
+`flight_modes`              its eigenvalues, in the plane and against airspeed
 `catalogue`                 which of these a dataset has
 `layout`, `palette`         what they share: labels, ranges, colours by role
 `events`                    how flutter points look, the same everywhere

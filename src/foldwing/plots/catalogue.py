@@ -7,6 +7,8 @@ from foldwing.plots.boundary import boundary, boundary_map
 from foldwing.plots.convergence import convergence
 from foldwing.plots.determinant import determinant_contours
 from foldwing.plots.energy import work_of_modes, work_of_segments
+from foldwing.plots.flight import flight_paths, flight_paths_relative
+from foldwing.plots.flight_modes import flight_against_speed, flight_eigenvalues
 from foldwing.plots.frequencies import natural_frequencies
 from foldwing.plots.loads import flutter_circulation, pressure, pressure_of_modes
 from foldwing.plots.loci import against_speed, root_locus
@@ -37,6 +39,10 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     circulation_across,
     circulation_in_space,
     response,
+    flight_eigenvalues,
+    flight_against_speed,
+    flight_paths,
+    flight_paths_relative,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 

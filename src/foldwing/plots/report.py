@@ -10,6 +10,13 @@ from foldwing.plots.catalogue import films, pictures
 from foldwing.plots.events import words
 from foldwing.plots.interactive import figure
 from foldwing.plots.palette import THEMES
+from foldwing.results.flight_table import (
+    derivatives_table,
+    models_table,
+    modes_table,
+    speeds_table,
+    trim_text,
+)
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
 from foldwing.results.steady_table import legend, loads_table, segments_table
@@ -150,6 +157,8 @@ def _table(dataset: "xarray.Dataset") -> list[str]:
         return []
     if dataset.attrs["kind"] == "steady":
         return _loads(dataset)
+    if dataset.attrs["kind"] == "flight":
+        return _flight(dataset)
     rows = flutter_rows(dataset)
     if not rows:
         return ["<h2>Flutter points</h2>", "<p>None were found.</p>"]
@@ -176,6 +185,22 @@ def _loads(dataset: "xarray.Dataset") -> list[str]:
         f"<h2>On each segment{f', {first}' if first else ''}</h2>",
         f'<div class="scroll">{_html(*segments_table(dataset))}</div>',
     ]
+
+
+def _flight(dataset: "xarray.Dataset") -> list[str]:
+    """Return the modes of the aircraft, by all models and at all airspeeds, and its derivatives."""
+    tables = [
+        ("Modes of the four states", modes_table(dataset)),
+        ("Beside other models", models_table(dataset)),
+    ]
+    if "X_u" in dataset:
+        tables.append(("Stability derivatives in N, N m", derivatives_table(dataset)))
+    if "swept_eigenvalue" in dataset:
+        tables.append(("Against airspeed, in trim at each", speeds_table(dataset)))
+    parts = [
+        f'<h2>{title}</h2><div class="scroll">{_html(*table)}</div>' for title, table in tables
+    ]
+    return [*parts, f'<p class="small">{html.escape(trim_text(dataset))}</p>']
 
 
 _COLUMNS = ("what happens", "speed (m/s)", "frequency (Hz)", "mode", "class", "strength (s/m)")

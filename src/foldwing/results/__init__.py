@@ -9,10 +9,13 @@
 `summary`            the answer and the certificate in one line each
 `writing`            netCDF and CSV
 `steady_table`       tables of steady loads
+`flight_table`       tables of the flight of a rigid aircraft
+`flight_summary`     the answer of a flight in one line
 `folders`            result folders: whole or not at all, never over something else
 ===================  ==========================================================================
 """
 
+from foldwing.results.flight_table import write_flight_csv
 from foldwing.results.flutter_table import FlutterRow, flutter_rows, table_variables
 from foldwing.results.folders import check_writable, default_folder, free_name, result_folder
 from foldwing.results.provenance import Source, model_hash, package_version, provenance
@@ -51,6 +54,7 @@ __all__ = [
     "write_convergence_csv",
     "write_csv",
     "write_dataset",
+    "write_flight_csv",
     "write_frequencies_csv",
     "write_steady_csv",
 ]

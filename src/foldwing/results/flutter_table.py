@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.results.schema import fold_angle_names
+from foldwing.stability.status import ELASTIC
 
 if TYPE_CHECKING:
     import xarray
@@ -24,6 +25,7 @@ _FIELDS = {
     "flutter_mode_confidence": "mode_confidence",
     "threshold": "threshold",
     "point_residual": "residual",
+    "motion": "motion",
 }
 """Variable of the dataset -> field of a row."""
 
@@ -60,6 +62,8 @@ class FlutterRow:
         Damping ratio at which the point is reported.
     residual : float
         Residual of the flutter equation.
+    motion : str
+        ``elastic``, ``phugoid`` or ``short period``.
     """
 
     case: int
@@ -75,6 +79,13 @@ class FlutterRow:
     mode_confidence: float
     threshold: float
     residual: float
+    motion: str = ELASTIC
+
+    @property
+    def is_critical(self) -> bool:
+        """Whether an instability that bounds the airspeed begins here."""
+        as_a_whole = self.kind == "flutter" and self.motion != ELASTIC
+        return self.event != "recovery" and not as_a_whole
 
 
 def table_variables(rows: Sequence[FlutterRow]) -> dict[str, tuple[tuple[str, ...], Any]]:

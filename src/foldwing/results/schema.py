@@ -13,7 +13,7 @@ from foldwing.stability.status import Status
 if TYPE_CHECKING:
     import xarray
 
-KINDS = ("modes", "flutter", "boundary", "convergence", "steady")
+KINDS = ("modes", "flutter", "boundary", "convergence", "steady", "aircraft", "flight")
 """What a dataset can hold; its attribute ``kind`` is one of these."""
 
 REQUIRED_ATTRIBUTES = (

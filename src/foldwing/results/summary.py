@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from foldwing.results.convergence_table import convergence_answer
+from foldwing.results.flight_summary import flight_answer
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
 from foldwing.stability.status import Status
@@ -23,6 +24,8 @@ def answer(dataset: "xarray.Dataset") -> str:
         return convergence_answer(dataset)
     if dataset.attrs["kind"] == "steady":
         return _steady_answer(dataset)
+    if dataset.attrs["kind"] == "flight":
+        return flight_answer(dataset)
     if dataset.sizes.get("fold", 1) > 1:
         return _boundary_answer(dataset)
     return _flutter_answer(dataset)
@@ -64,8 +67,8 @@ def uncertified_cases(dataset: "xarray.Dataset") -> list[int]:
 
 
 def critical_row(rows: Sequence[FlutterRow]) -> FlutterRow | None:
-    """Return the onset or merger at the lowest airspeed."""
-    onsets = [row for row in rows if row.event != "recovery" and math.isfinite(row.speed)]
+    """Return the onset or merger at the lowest airspeed, but no oscillation of an aircraft."""
+    onsets = [row for row in rows if row.is_critical and math.isfinite(row.speed)]
     return min(onsets, key=lambda row: row.speed, default=None)
 
 
@@ -131,20 +134,54 @@ def _flutter_answer(dataset: "xarray.Dataset") -> str:
     return already or _nothing_found(dataset)
 
 
+def motion_text(eigenvalue: complex) -> str:
+    """Return frequency in Hz and damping ratio of an oscillation, a dash where it is lost."""
+    if not np.isfinite(eigenvalue) or eigenvalue.imag == 0.0:
+        return "-"
+    return f"{eigenvalue.imag / (2 * math.pi):.3g}, {-eigenvalue.real / eigenvalue.imag:+.3f}"
+
+
+def unstable_motions(dataset: "xarray.Dataset") -> str:
+    """Return which oscillations of an aircraft are beyond the boundary from the start on."""
+    if "unstable_motions" not in dataset or not (dataset["unstable_motions"].values != "").any():
+        return ""
+    lists = [text.split(", ") for text in dataset["unstable_motions"].values.tolist() if text]
+    names = " and ".join(dict.fromkeys(name for names in lists for name in names))
+    cases = (
+        "" if dataset.sizes["fold"] == 1 else f" in {len(lists)} of {dataset.sizes['fold']} cases"
+    )
+    lowest = float(dataset.attrs.get("speed_floor", np.nan))
+    since = f" from {lowest:.3g} m/s on" if dataset.sizes["fold"] == 1 else " from the start"
+    return f"The {names} grows slowly{since}{cases}; that bounds no airspeed."
+
+
 def _unstable_from_start(dataset: "xarray.Dataset") -> str:
-    """Return a sentence on roots beyond the boundary at the lowest airspeed already, or nothing."""
+    """Return a sentence on roots beyond the boundary at the lowest airspeed already, or nothing.
+
+    Oscillations of an aircraft as a whole do not count.
+    """
     if "unstable_from_start" not in dataset:
         return ""
-    already = dataset["unstable_from_start"].values > 0
+    already = _elastic_from_start(dataset) > 0
     if not already.any():
         return ""
     lowest = float(dataset.attrs.get("speed_floor", np.nanmax(dataset["valid_from"].values)))
     if dataset.sizes["fold"] > 1:
         who = f"{int(already.sum())} of {already.size} cases are"
         return f"{who} beyond the boundary from the lowest airspeed, {lowest:.3g} m/s, on. "
-    count = int(dataset["unstable_from_start"][0])
+    count = int(_elastic_from_start(dataset)[0])
     roots = "1 root is" if count == 1 else f"{count} roots are"
     return f"{roots} beyond the boundary from the lowest airspeed, {lowest:.3g} m/s, on. "
+
+
+def _elastic_from_start(dataset: "xarray.Dataset") -> "np.ndarray[tuple[int], np.dtype[np.int64]]":
+    """Return the number of unstable roots at the lowest airspeed less those of the aircraft."""
+    counts: np.ndarray[tuple[int], np.dtype[np.int64]] = dataset["unstable_from_start"].values
+    if "unstable_motions" not in dataset:
+        return counts
+    names = dataset["unstable_motions"].values.tolist()
+    of_aircraft = [2 * len(text.split(", ")) if text else 0 for text in names]
+    return np.asarray(counts - np.array(of_aircraft, np.int64))
 
 
 def _boundary_answer(dataset: "xarray.Dataset") -> str:
@@ -240,7 +277,7 @@ def response(dataset: "xarray.Dataset") -> str:
 
 def warnings(dataset: "xarray.Dataset") -> list[str]:
     """Return what makes results doubtful: modes not resolved, remarks on cases, each once."""
-    parts = [_unresolved(dataset)]
+    parts = [_unresolved(dataset), unstable_motions(dataset)]
     if "message" in dataset:
         failed = set(failed_cases(dataset))
         cases: dict[str, list[int]] = {}

@@ -91,6 +91,18 @@ _COORDINATES = (
     variable("row", ("row",), "1", "panel along the chord, 1 at the leading edge", "integer"),
     variable("edge", ("edge",), "", "edge of a strip: inner or outer", "text"),
     variable("time", ("time",), "s", "time after the disturbance"),
+    variable("body", ("body",), "", "wing, fuselage, tail, or the aircraft as a whole", "text"),
+    variable("surface", ("surface",), "", "segment from the root, or the tail", "text"),
+    variable("clamped_mode", ("clamped_mode",), "1", "branch of the clamped wing", "integer"),
+    variable("clamped_point", ("clamped_point",), "1", "flutter point of it", "integer"),
+    variable("flight_model", ("flight_model",), "", "model of the rigid aircraft", "text"),
+    variable(
+        "flight_root", ("flight_root",), "1", "eigenvalue of a model, phugoid first", "integer"
+    ),
+    variable("state", ("state",), "", "state: u, w, q or theta", "text"),
+    variable("equation", ("equation",), "", "state whose rate a row of the matrix gives", "text"),
+    variable("flight_motion", ("flight_motion",), "1", "motion of the four states", "integer"),
+    variable("path_sample", ("path_sample",), "1", "sample of a flight path", "integer"),
 )
 
 _MODES = (
@@ -100,6 +112,10 @@ _MODES = (
     variable("bending_share", _MODE, "1", "share of bending in the energy of the mode"),
     variable("position", ("fold", "point", "axis"), "m", "position on the folded wing at rest"),
     variable("mode_shape", ("fold", "mode", "point", "axis"), "m", "displacement in the mode"),
+    variable("mass_centre", ("fold", "body", "axis"), "m", "centre of mass at rest"),
+    variable(
+        "mass_centre_shape", ("fold", "mode", "body", "axis"), "m", "its displacement in the mode"
+    ),
     Variable("status", (FOLD, _LOCUS), "1", "how the computation ended", "status"),
 )
 
@@ -126,6 +142,9 @@ _CASES = (
     variable("valid_from", FOLD, "m/s", "lowest airspeed for which the result holds"),
     variable("uncertified_modes", FOLD, "", "modes not resolved at the lowest airspeeds", "text"),
     variable("unstable_from_start", FOLD, "1", "unstable roots at the lowest airspeed", "integer"),
+    variable(
+        "unstable_motions", FOLD, "", "motions of the aircraft unstable from the start", "text"
+    ),
     variable("message", FOLD, "", "why the case failed or is doubtful", "text"),
 )
 
@@ -142,6 +161,7 @@ _POINTS = (
     variable("flutter_mode_confidence", _TABLE, "1", "confidence in the name of the mode"),
     variable("threshold", _TABLE, "1", "damping ratio at which the point is reported"),
     variable("point_residual", _TABLE, "1", "residual of the flutter point"),
+    variable("motion", _TABLE, "", "elastic, phugoid or short period", "text"),
     variable("flutter_shape", (*_TABLE, "point", "axis"), "m", "motion at the point", "complex"),
 )
 
@@ -239,9 +259,88 @@ _STEADY = (
     ),
 )
 
+_SURFACE: Dims = ("fold", "surface")
+_CLAMPED: Dims = ("clamped_point",)
+
+_AIRCRAFT = (
+    variable("surface_lift", _SURFACE, "N", "vertical lift of the surface of the half aircraft"),
+    variable("lift_share", _SURFACE, "1", "share of the surface in the weight"),
+    variable("slowest_speed", FOLD, "m/s", "airspeed below which level flight is out of reach"),
+    variable("trim_angle", ("fold", "speed"), "degree", "angle of attack of the wing"),
+    variable("trim_tail_angle", ("fold", "speed"), "degree", "angle of attack of the tail"),
+    variable("surface_lift_coefficient", ("fold", "speed", "surface"), "1", "of its normal force"),
+    variable(
+        "clamped_eigenvalue",
+        ("speed", "clamped_mode"),
+        "rad/s",
+        "eigenvalue with the root clamped",
+        "complex",
+    ),
+    variable("clamped_branch_name", ("clamped_mode",), "", "name of its branch", "text"),
+    variable("clamped_kind", _CLAMPED, "", "root clamped: flutter or divergence", "text"),
+    variable("clamped_event", _CLAMPED, "", "root clamped: onset, recovery or merger", "text"),
+    variable("clamped_class", _CLAMPED, "", "root clamped: hump or coalescence", "text"),
+    variable("clamped_flutter_speed", _CLAMPED, "m/s", "root clamped: airspeed of the point"),
+    variable("clamped_flutter_frequency", _CLAMPED, "Hz", "root clamped: frequency of the point"),
+    variable("clamped_flutter_mode", _CLAMPED, "", "root clamped: mode of the point", "text"),
+)
+
+_FLIGHT_ROOT: Dims = ("flight_model", "flight_root")
+_SWEPT: Dims = ("flight_model", "speed")
+_MOTION: Dims = ("flight_motion",)
+_PATH: Dims = (*_MOTION, "path_sample")
+
+_FLIGHT = (
+    variable("flight_eigenvalue", _FLIGHT_ROOT, "rad/s", "eigenvalue", "complex"),
+    variable("flight_mode", _FLIGHT_ROOT, "", "mode of the eigenvalue", "text"),
+    variable("flight_period", _FLIGHT_ROOT, "s", "period of an oscillation"),
+    variable("flight_damping_ratio", _FLIGHT_ROOT, "1", "damping ratio -Re/|eigenvalue|"),
+    variable("flight_time_to_half", _FLIGHT_ROOT, "s", "time in which the amplitude halves"),
+    variable("flight_time_to_double", _FLIGHT_ROOT, "s", "time in which the amplitude doubles"),
+    variable("flight_cycles", _FLIGHT_ROOT, "1", "cycles in which it halves or doubles"),
+    variable("swept_eigenvalue", (*_SWEPT, "flight_root"), "rad/s", "eigenvalue", "complex"),
+    variable("swept_mode", (*_SWEPT, "flight_root"), "", "mode of the eigenvalue", "text"),
+    variable("phugoid_product", _SWEPT, "m/s^2", "angular frequency of the phugoid times airspeed"),
+    variable("swept_lift_coefficient", ("speed",), "1", "lift coefficient of level flight"),
+    variable("state_matrix", ("equation", "state"), "SI", "matrix of the four states"),
+    variable("X_u", (), "N s/m", "force along x per velocity along x"),
+    variable("X_w", (), "N s/m", "force along x per velocity along z"),
+    variable("Z_u", (), "N s/m", "force along z per velocity along x"),
+    variable("Z_w", (), "N s/m", "force along z per velocity along z"),
+    variable("Z_q", (), "N s", "force along z per pitch rate"),
+    variable("M_u", (), "N s", "pitching moment per velocity along x"),
+    variable("M_w", (), "N s", "pitching moment per velocity along z"),
+    variable("M_q", (), "N m s", "pitching moment per pitch rate"),
+    variable("trim_lift_coefficient", (), "1", "lift coefficient on the area of the wing"),
+    variable("trim_drag_coefficient", (), "1", "drag coefficient on the area of the wing"),
+    variable("wing_lift_coefficient", (), "1", "lift coefficient of the wing"),
+    variable("tail_lift_coefficient", (), "1", "lift coefficient of the tail on its own area"),
+    variable("static_margin", (), "1", "centre of gravity ahead of the neutral point, in chords"),
+    variable("neutral_point", (), "m", "neutral point aft of the wing's quarter chord"),
+    variable("motion_mode", _MOTION, "", "mode of the motion", "text"),
+    variable("motion_eigenvalue", _MOTION, "rad/s", "eigenvalue of the motion", "complex"),
+    variable("motion_shape", (*_MOTION, "state"), "SI", "states in the motion", "complex"),
+    variable("path_time", _PATH, "s", "time along the flight path"),
+    variable("path_distance", _PATH, "m", "distance flown over the ground"),
+    variable("path_ahead", _PATH, "m", "distance ahead of the steadily flying point"),
+    variable("path_altitude", _PATH, "m", "height above the steadily flying point"),
+    variable("path_pitch", _PATH, "degree", "change of the pitch angle, nose up"),
+)
+
 VARIABLES: Mapping[str, Variable] = {
     row.name: row
-    for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS, *_LOADS, *_LEVELS, *_STEADY)
+    for row in (
+        *_MODES,
+        *_LOCI,
+        *_CASES,
+        *_POINTS,
+        *_EXTRAS,
+        *_LOADS,
+        *_LEVELS,
+        *_STEADY,
+        *_AIRCRAFT,
+        *_FLIGHT,
+    )
 }
 """Every variable a dataset may hold."""
 

@@ -29,6 +29,7 @@ POINT_COLUMNS = (
     "mode_name",
     "mode_confidence",
     "threshold",
+    "motion",
 )
 """Columns of the table of flutter points after ``case`` and the fold angles."""
 

@@ -1,5 +1,6 @@
 """Eigenvalues against airspeed: oscillating branches, real roots, and their certificate."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -90,6 +91,22 @@ class RootLoci:
         }
         mode = np.concatenate([np.arange(count), self.mode[others]])
         return replace(self, mode=mode, **columns)
+
+    def with_zero_roots(self, columns: Sequence[int]) -> "RootLoci":
+        """Return the loci with an exact zero root at every airspeed in the columns."""
+        if not columns:
+            return self
+        zero = {
+            "eigenvalue": 0j,
+            "residual": 0.0,
+            "confidence": 1.0,
+            "status": int(Status.OK),
+        }
+        changed = {}
+        for name, value in zero.items():
+            changed[name] = getattr(self, name).copy()
+            changed[name][:, list(columns)] = value
+        return replace(self, **changed)
 
 
 class Further(NamedTuple):

@@ -57,7 +57,7 @@ def follow_modes(
     wanted = assembly.wing.analysis.system_modes if count is None else count
     solved = wanted + SPARE_MODES
     first = natural_modes(assembly, fold_angles[0], solved)
-    wanted = min(wanted, first.count)
+    wanted = min(wanted + len(first.rigid_labels), first.count)
     result = [FollowedModes(first, np.ones(first.count))]
     for folds in fold_angles[1:]:
         result.append(_next(result[-1].modes, folds, solved))
@@ -69,7 +69,7 @@ def _next(previous: StructuralModes, folds: tuple[float, ...], count: int) -> Fo
     direct = _matched(previous, natural_modes(previous.assembly, folds, count))
     step = np.subtract(folds, previous.fold_angles)
     small = float(np.abs(step).max(initial=0.0)) < SMALLEST_FOLD_STEP
-    if small or direct.confidence[: count - SPARE_MODES].min(initial=1.0) > CLEAR_MATCH:
+    if small or direct.confidence[: previous.count - SPARE_MODES].min(initial=1.0) > CLEAR_MATCH:
         return direct
     middle = tuple(float(angle) for angle in np.add(previous.fold_angles, step / 2.0))
     halfway = _next(previous, middle, count)

@@ -10,6 +10,7 @@
 `trace`      the boundary as continuous curves
 `loads`      pressure, circulation and work of the air at flutter points
 `steady`     steady lift, drag and moments against fold angle
+`flight`     phugoid and short period of a rigid aircraft
 `shapes`     points at which motions are drawn
 `measured`   measured points to lay over a picture
 `answers`    the same results as plain numbers, for JSON

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.aerodynamics.steady_loads import WingLoads
+from foldwing.maths.arrays import Complex, Real
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
 from foldwing.results.steady_table import PER_SEGMENT, WHOLE
 from foldwing.results.summary import critical_row
-from foldwing.stability.status import Status
+from foldwing.stability.status import ELASTIC, Status
 from foldwing.structure.modes import StructuralModes
+from foldwing.studies.aircraft import AircraftStudy
 from foldwing.studies.boundary import Boundary, Outcome
 from foldwing.studies.case import Case
 from foldwing.studies.convergence import ConvergenceStudy
@@ -50,6 +52,48 @@ def flutter_answer(case: Case) -> Answer:
         "status": case.status.meaning,
         **({"warning": case.warning} if case.warning else {}),
     }
+
+
+def aircraft_answer(study: AircraftStudy) -> Answer:
+    """Return flutter points of an aircraft, its trim and motions, and its wing clamped.
+
+    Lift in N of the half aircraft, angles in degrees, eigenvalues in 1/s and Hz.
+    """
+    dataset, level = study.dataset, study.case.flight.level if study.case.flight else None
+    assert level is not None
+    answer = flutter_answer(study.case)
+    answer["unstable_motions"] = list(study.case.unstable_motions)
+    answer["trim"] = {
+        "weight": level.weight,
+        "slowest_speed": level.slowest,
+        "largest_lift_coefficient": level.largest,
+        "surfaces": [
+            {"name": name, "lift": _number(lift), "share": _number(share)}
+            for name, lift, share in zip(
+                dataset["surface"].values.tolist(), level.lift, level.share, strict=True
+            )
+        ],
+    }
+    angles = dataset["trim_angle"].values[0]
+    answer["speeds"] = dataset["speed"].values.tolist()
+    answer["angle_of_attack"] = [_number(angle) for angle in angles]
+    answer["motions"] = [_motion(dataset, name) for name in study.case.motion_names]
+    answer["clamped"] = None if study.clamped is None else flutter_answer(study.clamped)
+    return answer
+
+
+def _motion(dataset: "xarray.Dataset", name: str) -> Answer:
+    column = dataset["branch_name"].values.tolist().index(name)
+    values = dataset["eigenvalue"].values[0, :, column]
+    return {
+        "name": name,
+        "growth": [_number(value) for value in values.real],
+        "frequency_hz": [_number(value / (2.0 * math.pi)) for value in _imaginary(values)],
+    }
+
+
+def _imaginary(values: Complex) -> Real:
+    return np.where(np.isnan(values.real), np.nan, values.imag)
 
 
 def reference_answer(dataset: "xarray.Dataset") -> Answer:
@@ -188,6 +232,7 @@ def _point(row: FlutterRow) -> Answer:
         "strength": _number(row.strength),
         "mode": row.mode_name,
         "mode_confidence": row.mode_confidence,
+        **({} if row.motion == ELASTIC else {"motion": row.motion}),
     }
 
 

@@ -12,6 +12,7 @@ from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.status import Status
 from foldwing.structure.following import FollowedModes, follow_modes
+from foldwing.studies.aircraft import trim_parts
 from foldwing.studies.case import Case, solve_case, verdict_variables
 from foldwing.studies.failures import NUMERICAL_FAILURES
 from foldwing.studies.flutter import METHODS, search_attributes
@@ -178,10 +179,10 @@ def _dataset(
         for row in outcome.case.rows(index)
     ]
     folds = [outcome.folds for outcome in outcomes]
-    variables = (
-        table_variables(rows) | _frequencies(model, outcomes) | _verdicts(outcomes) | overlay[0]
-    )
-    coords = fold_coordinates(folds) | overlay[1]
+    trim, surfaces = trim_parts([outcome.case for outcome in outcomes])
+    variables = table_variables(rows) | _frequencies(model, outcomes) | _verdicts(outcomes)
+    variables |= trim | overlay[0]
+    coords = fold_coordinates(folds) | surfaces | overlay[1]
     coords["flutter_point"] = (("flutter_point",), np.arange(len(rows)))
     if "natural_frequency" in variables:
         count = variables["natural_frequency"][1].shape[1]

@@ -6,14 +6,16 @@ from typing import Any
 
 import numpy as np
 
+from foldwing.aeroelastic.flight_modes import with_motions
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Complex
 from foldwing.results.flutter_table import FlutterRow
 from foldwing.stability.flutter import FlutterAnalysis, find_flutter, lowest_resolved
-from foldwing.stability.status import FlutterPoint, Status
+from foldwing.stability.status import ELASTIC, FlutterPoint, Status
 from foldwing.structure.modes import StructuralModes
+from foldwing.studies.flight_level import Flight
 from foldwing.studies.grid import radians
 
 CLEAR = 1.05
@@ -34,6 +36,8 @@ class Case:
     analysis : FlutterAnalysis
     warning : str
         What makes the result doubtful, empty when nothing does.
+    flight : Flight, optional
+        What is known of an aircraft besides.
     """
 
     folds: tuple[float, ...]
@@ -41,11 +45,28 @@ class Case:
     system: AeroelasticSystem
     analysis: FlutterAnalysis
     warning: str = ""
+    flight: Flight | None = None
 
     @property
     def uncertified_modes(self) -> tuple[str, ...]:
         """Modes that the aerodynamic model does not resolve at the lowest airspeeds."""
         return tuple(self.modes.names[column] for column in self.analysis.unresolved)
+
+    @property
+    def motion_names(self) -> tuple[str, ...]:
+        """Motions of an aircraft as a whole; none of a clamped wing."""
+        return () if self.flight is None else self.flight.modes.names
+
+    @property
+    def unstable_motions(self) -> tuple[str, ...]:
+        """Oscillations of an aircraft beyond the boundary at the lowest airspeed already."""
+        if self.flight is None:
+            return ()
+        lowest = np.array(self.analysis.speed_range[:1])
+        found = self.flight.modes
+        value = found.eigenvalues(self.system, lowest)[0]
+        beyond = value.real + self.analysis.threshold * value.imag > 0.0
+        return tuple(name for name, out in zip(found.names, beyond, strict=True) if out)
 
     @property
     def status(self) -> Status:
@@ -87,10 +108,11 @@ def flutter_row(
         frequency=point.frequency,
         strength=point.strength,
         branch=point.branch,
-        mode_name=names[point.mode],
+        mode_name=names[point.mode] if point.motion == ELASTIC else point.motion,
         mode_confidence=point.mode_confidence,
         threshold=threshold,
         residual=point.residual,
+        motion=point.motion,
     )
 
 
@@ -116,6 +138,13 @@ def solve_case(
     warning = model.warning(modes)
     system = model.system(modes)
     threshold = model.wing.analysis.damping_threshold
+    if model.wing.aircraft is not None:
+        flight = Flight.of(model, modes, system, speed_range)
+        speed_range = _resolved_range(system, flight.speed_range, threshold)
+        analysis = find_flutter(system, speed_range, threshold)
+        analysis = with_motions(analysis, system, flight.modes)
+        warning = " ".join(filter(None, (warning, flight.warning)))
+        return Case(folds, modes, system, analysis, warning, flight)
     speed_range = _resolved_range(system, speed_range, threshold)
     return Case(folds, modes, system, find_flutter(system, speed_range, threshold), warning)
 
@@ -146,10 +175,12 @@ def verdict_variables(cases: Sequence[Case | None]) -> dict[str, Any]:
     lowest = [np.nan if case is None else case.analysis.valid_from for case in cases]
     outside = ["" if case is None else ", ".join(case.uncertified_modes) for case in cases]
     already = [-1 if case is None else case.analysis.unstable_from_start for case in cases]
+    motions = ["" if case is None else ", ".join(case.unstable_motions) for case in cases]
     return {
         "certified": (fold, np.array([value is Status.OK for value in status])),
         "case_status": (fold, np.array([int(value) for value in status])),
         "valid_from": (fold, np.array(lowest)),
         "uncertified_modes": (fold, np.array(outside, np.str_)),
         "unstable_from_start": (fold, np.array(already)),
+        "unstable_motions": (fold, np.array(motions, np.str_)),
     }

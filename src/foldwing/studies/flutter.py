@@ -11,10 +11,16 @@ from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.contours import determinant_map
 from foldwing.stability.loci import RootLoci, root_loci
+from foldwing.stability.tracking import BORN
 from foldwing.structure.following import FollowedModes
 from foldwing.studies.case import Case, solve_case, verdict_variables
 from foldwing.studies.loads import load_variables, unit_motions
-from foldwing.studies.modes import fold_coordinates, mode_variables, shape_variables
+from foldwing.studies.modes import (
+    body_coordinates,
+    fold_coordinates,
+    mode_variables,
+    shape_variables,
+)
 from foldwing.studies.shapes import surface_grid
 from foldwing.studies.speeds import picture_speeds, speed_range
 
@@ -29,6 +35,9 @@ METHODS = {
     "lattice": "beam segments, unsteady vortex lattice, sweep of the reduced frequency",
 }
 """One line per aerodynamic model on how the numbers are computed."""
+
+NEUTRAL = ("x", "z")
+"""Motions of an aircraft at which nothing pulls: exact zero roots at every airspeed."""
 
 CONTOUR_POINTS = 101
 """Points along each axis of the determinant contours."""
@@ -61,25 +70,7 @@ def flutter_study(
         highest = float(speeds[-1])
     case = solve_case(model, folds, speed_range(model, highest))
     chosen = picture_speeds(case.analysis) if speeds is None else speeds
-    loci = root_loci(case.system, chosen, case.analysis.sweep).by_mode(case.modes.count)
-    followed = [FollowedModes(case.modes, np.ones(case.modes.count))]
-    grid = surface_grid(model.wing)
-    q, shapes = unit_motions(case.modes, case.motions(), grid)
-    loads, load_coords = load_variables(model, case, q)
-    variables = (
-        padded(mode_variables(followed) | shape_variables(followed, grid), len(loci.mode))
-        | loci_variables(loci, case.modes.names)
-        | table_variables(case.rows(0))
-        | {"flutter_shape": (("flutter_point", "point", "axis"), shapes)}
-        | loads
-        | verdict_variables([case])
-        | {"message": (("fold",), np.array([case.warning], np.str_))}
-    )
-    coords = fold_coordinates([folds]) | grid.coordinates() | load_coords
-    coords["speed"] = (("speed",), chosen)
-    coords["mode"] = (("mode",), np.arange(1, len(loci.mode) + 1))
-    coords["flutter_point"] = (("flutter_point",), np.arange(len(case.analysis.points)))
-    contours, contour_coords = _contours(case, chosen)
+    variables, coords = case_parts(model, case, chosen)
     attrs: dict[str, Any] = provenance(
         model.wing.title,
         "flutter",
@@ -88,7 +79,45 @@ def flutter_study(
         source.options,
     )
     attrs |= search_attributes(model, case.analysis.speed_range)
-    return build_dataset(variables | contours, coords | contour_coords, attrs), case
+    return build_dataset(variables, coords, attrs), case
+
+
+def case_parts(model: AeroelasticWing, case: Case, speeds: Real) -> tuple[Variables, Variables]:
+    """Return all variables and coordinates of one case, its loci at ``speeds`` (u,) in m/s."""
+    loci = case_loci(case, speeds)
+    followed = [FollowedModes(case.modes, np.ones(case.modes.count))]
+    grid = surface_grid(model.wing)
+    q, shapes = unit_motions(case.modes, case.motions(), grid)
+    loads, load_coords = load_variables(model, case, q)
+    contours, contour_coords = _contours(case, speeds)
+    variables = (
+        padded(mode_variables(followed) | shape_variables(followed, grid), len(loci.mode))
+        | loci_variables(loci, case.modes.names, case.motion_names)
+        | table_variables(case.rows(0))
+        | {"flutter_shape": (("flutter_point", "point", "axis"), shapes)}
+        | loads
+        | verdict_variables([case])
+        | {"message": (("fold",), np.array([case.warning], np.str_))}
+        | contours
+    )
+    coords = fold_coordinates([case.folds]) | grid.coordinates() | load_coords | contour_coords
+    coords |= body_coordinates(case.modes)
+    coords["speed"] = (("speed",), speeds)
+    coords["mode"] = (("mode",), np.arange(1, len(loci.mode) + 1))
+    coords["flutter_point"] = (("flutter_point",), np.arange(len(case.analysis.points)))
+    return variables, coords
+
+
+def case_loci(case: Case, speeds: Real) -> RootLoci:
+    """Return the roots of a case against airspeed: column j holds mode j, others come behind.
+
+    The neutral motions of an aircraft have zero roots.
+    """
+    further = None if case.flight is None else case.flight.further(case.system)
+    loci = root_loci(case.system, speeds, case.analysis.sweep, further)
+    loci = loci.by_mode(case.modes.count)
+    neutral = [index for index, name in enumerate(case.modes.names) if name in NEUTRAL]
+    return loci.with_zero_roots(neutral)
 
 
 def padded(variables: Variables, width: int) -> Variables:
@@ -105,13 +134,22 @@ def padded(variables: Variables, width: int) -> Variables:
     return result
 
 
-def loci_variables(loci: RootLoci, modes: tuple[str, ...]) -> Variables:
-    """Return the eigenvalues against airspeed, and what follows from them, as variables."""
+def loci_variables(
+    loci: RootLoci, modes: tuple[str, ...], motions: tuple[str, ...] = ()
+) -> Variables:
+    """Return the eigenvalues against airspeed, and what follows from them, as variables.
+
+    Parameters
+    ----------
+    loci : RootLoci
+    modes, motions : tuple of str
+        Names of the natural modes, and of the motions of an aircraft as a whole.
+    """
     dims = ("fold", "speed", "mode")
     values = loci.eigenvalue
     with np.errstate(divide="ignore", invalid="ignore"):
         damping = np.where(values.imag == 0.0, np.nan, -values.real / np.abs(values.imag))
-    names = _branch_names(loci, modes)
+    names = branch_names(loci, modes, motions)
     frequency = np.where(np.isnan(values.real), np.nan, np.abs(values.imag) / (2.0 * np.pi))
     return {
         "eigenvalue": (dims, values[None]),
@@ -126,7 +164,7 @@ def loci_variables(loci: RootLoci, modes: tuple[str, ...]) -> Variables:
     }
 
 
-def _branch_names(loci: RootLoci, modes: tuple[str, ...]) -> list[str]:
+def branch_names(loci: RootLoci, modes: tuple[str, ...], motions: tuple[str, ...]) -> list[str]:
     """Return mode names, D1 ... for real roots and P1 ... for pairs born of real roots."""
     real = np.nan_to_num(np.abs(loci.eigenvalue.imag)).max(axis=0) == 0.0
     counts = {"D": 0, "P": 0}
@@ -134,10 +172,12 @@ def _branch_names(loci: RootLoci, modes: tuple[str, ...]) -> list[str]:
     for mode, is_real in zip(loci.mode, real, strict=True):
         if mode >= 0:
             names.append(modes[mode])
-            continue
-        letter = "D" if is_real else "P"
-        counts[letter] += 1
-        names.append(f"{letter}{counts[letter]}")
+        elif mode < BORN:
+            names.append(motions[BORN - 1 - mode])
+        else:
+            letter = "D" if is_real else "P"
+            counts[letter] += 1
+            names.append(f"{letter}{counts[letter]}")
     return names
 
 
@@ -156,7 +196,8 @@ def _contours(case: Case, speeds: Real) -> tuple[Variables, Variables]:
     """Return the determinant around the roots at the critical speed, or at the last speed."""
     critical = case.analysis.critical
     speed = float(speeds[-1]) if critical is None else critical.speed
-    highest = 1.15 * float(case.modes.omega[min(3, case.modes.count - 1)])
+    elastic = case.modes.omega[case.modes.omega > 0.0]
+    highest = 1.15 * float(elastic[min(3, len(elastic) - 1)])
     growth = np.linspace(-0.35 * highest, 0.12 * highest, CONTOUR_POINTS)
     omega = np.linspace(highest / CONTOUR_POINTS, highest, CONTOUR_POINTS)
     result = determinant_map(case.system, speed, growth, omega)

@@ -53,16 +53,18 @@ def load_variables(model: AeroelasticWing, case: Case, q: Complex) -> tuple[Vari
     speed = np.array([point.speed for point in points], float)
     loads = loads_of(model, case.modes, Motions(p, speed, amplitude * q))
     at, further = ("flutter_point",), {"amplitude": amplitude}
+    count = len(model.wing.segments)
+    tail = {} if model.wing.aircraft is None else {"tail": count + 1}
     between = (*at, "moving_mode", "driving_mode")
     variables: Variables = {
-        "work": ((*at, "wing_segment"), loads.work_by_segment, further),
+        "work": ((*at, "wing_segment"), loads.work_by_segment, further | tail),
         "work_between_modes": (between, loads.work_between_modes, further),
         "kinetic_energy": (at, loads.kinetic_energy, further),
         "mode_share": ((*at, "moving_mode"), loads.mode_shares),
     }
     numbers = np.arange(1, case.modes.count + 1)
     coords: Variables = {
-        "wing_segment": (("wing_segment",), np.arange(1, len(model.wing.segments) + 1)),
+        "wing_segment": (("wing_segment",), np.arange(1, loads.forces.shape[1] + 1)),
         "moving_mode": (("moving_mode",), numbers),
         "driving_mode": (("driving_mode",), numbers),
     }

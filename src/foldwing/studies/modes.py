@@ -11,6 +11,8 @@ from foldwing.results.schema import build_dataset
 from foldwing.stability.status import Status
 from foldwing.structure.assembly import assemble
 from foldwing.structure.following import FollowedModes, follow_modes
+from foldwing.structure.mass_centres import mass_centres
+from foldwing.structure.modes import StructuralModes
 from foldwing.studies.grid import radians, swept_hinge
 from foldwing.studies.measured import Measured
 from foldwing.studies.shapes import SurfaceGrid, surface_grid
@@ -51,7 +53,7 @@ def modes_study(
     attrs |= {} if hinge is None else {"swept": f"fold_{hinge}"}
     variables = mode_variables(followed) | shape_variables(followed, grid)
     variables["status"] = (("fold",), np.full(len(cases), int(Status.OK)))
-    coords = fold_coordinates(cases) | grid.coordinates()
+    coords = fold_coordinates(cases) | grid.coordinates() | body_coordinates(followed[0].modes)
     coords["mode"] = (("mode",), np.arange(1, followed[0].modes.count + 1))
     if measured is not None:
         points, numbers = measured.variables(hinge)
@@ -81,12 +83,30 @@ def mode_variables(followed: Sequence[FollowedModes]) -> Variables:
 
 
 def shape_variables(followed: Sequence[FollowedModes], grid: SurfaceGrid) -> Variables:
-    """Return positions at rest and displacements of the modes, largest displacement 1 m."""
+    """Return positions at rest and displacements of the modes, largest displacement 1 m.
+
+    Of points on the surface, and of mass centres.
+    """
     positions = np.array([grid.position(case.modes) for case in followed])
     shapes = np.array([grid.displacement(case.modes) for case in followed])
-    largest = np.linalg.norm(shapes, axis=2).max(axis=1)[:, None, None, :]
-    scaled = np.moveaxis(shapes / largest, 3, 1)
+    bodies = [mass_centres(case.modes) for case in followed]
+    moved = np.array([[body.displacement for body in those] for those in bodies])
+    both = np.concatenate([shapes, moved], axis=1)
+    largest = np.linalg.norm(both, axis=2).max(axis=1)[:, None, None, :]
     return {
         "position": (("fold", "point", "axis"), positions),
-        "mode_shape": (("fold", "mode", "point", "axis"), scaled),
+        "mode_shape": (("fold", "mode", "point", "axis"), np.moveaxis(shapes / largest, 3, 1)),
+        "mass_centre": (
+            ("fold", "body", "axis"),
+            np.array([[body.position for body in those] for those in bodies]),
+        ),
+        "mass_centre_shape": (
+            ("fold", "mode", "body", "axis"),
+            np.moveaxis(moved / largest, 3, 1),
+        ),
     }
+
+
+def body_coordinates(modes: StructuralModes) -> Variables:
+    """Return the dataset coordinate of the mass centres."""
+    return {"body": (("body",), np.array([body.name for body in mass_centres(modes)], np.str_))}

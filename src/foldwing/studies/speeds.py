@@ -34,8 +34,8 @@ def speed_range(model: AeroelasticWing, highest: float | None = None) -> tuple[f
     ----------
     model : AeroelasticWing
     highest : float, optional
-        By default three times the lowest divergence speed of the flat wing, rounded up to two
-        digits, the same for all fold angles.
+        By default three times the lowest divergence speed of the flat wing with its root clamped,
+        rounded up to two digits, the same for all fold angles.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def speed_range(model: AeroelasticWing, highest: float | None = None) -> tuple[f
         When ``highest`` is no airspeed.
     """
     check_highest(highest)
-    automatic = _automatic(replace(model, dropped=()))
+    automatic = _automatic(replace(model, wing=model.wing.clamped, dropped=()))
     top = automatic if highest is None else highest
     return min(top, automatic) * LOWEST_FRACTION, top
 
