@@ -12,8 +12,8 @@ from foldwing.model import Hinge, read_model
 from foldwing.stability.newton import polish_roots
 from foldwing.stability.problem import evaluate, evaluate_with_derivatives
 from support import level_flight
-from support.random_aircraft import random_aircraft, rigid_system, with_aircraft
 from support.lattices import direct_forces
+from support.random_aircraft import random_aircraft, rigid_system, with_aircraft
 
 NAME = "three-segment-aircraft"
 TAIL_TOO = {"trim": "force-and-moment"}
