@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from foldwing.aeroelastic.flight_modes import flight_modes
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.model import read_model
 from foldwing.stability.newton import polish_roots
@@ -112,3 +113,23 @@ def test_eigenvalues_in_flight_are_the_same(name, lags, sides):
             assert other.root_near(root * (1 + 1e-5 + 1e-5j), U) == pytest.approx(root, rel=1e-9)
             checked += 1
     assert checked >= 9
+
+
+@pytest.mark.parametrize("name", [(30, -60), (30, 60), (0, 0), 1, 4, 9], ids=str)
+def test_phugoid_and_short_period_are_eigenvalues_of_one_matrix_without_lag(name):
+    """All roots at once: two of zero, the phugoid the slowest of the others, then the faster."""
+    model, problem = flying(name, (False, False))
+    slowest, other = model.trim(model.modes()).slowest, explicit(name, lags=(False, False))
+    speeds = slowest * np.array([1.0, 1.15, 1.3])
+    motions = flight_modes(problem, (slowest, 4 * slowest))
+    assert motions.names == ("phugoid", "short period")
+    values = motions.eigenvalues(problem, speeds)
+    for U, (phugoid, short) in zip(speeds, values, strict=True):
+        roots = other.quasi_steady_roots(U)
+        size = np.sort(np.abs(roots))
+        assert size[1] < 1e-3 * abs(phugoid)
+        for value in (phugoid, short):
+            assert np.abs(roots / value - 1).min() < 1e-6
+            assert other.root_near(value * (1 + 1e-6j), U) == pytest.approx(value, rel=1e-9)
+        moving = roots[(roots.imag > 1e-3 * abs(phugoid)) & (np.abs(roots) > 0.1 * abs(phugoid))]
+        assert np.abs(moving).min() == pytest.approx(abs(phugoid), rel=1e-6)
