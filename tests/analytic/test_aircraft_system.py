@@ -166,6 +166,14 @@ def test_circulation_in_a_faster_stream_builds_up_as_the_equations_of_the_lattic
     np.testing.assert_allclose(Q0, wanted, rtol=1e-6, atol=1e-8 * np.abs(wanted).max())
 
 
+def test_a_lattice_with_a_tail_holds_as_far_as_the_lattice_does():
+    model = AeroelasticWing(lattice_wing(WINGS["folded"]), "lattice")
+    modes = model.modes()
+    system, lattice = model.system(modes), model.lattice(modes)
+    assert system.highest_frequency == lattice.highest_frequency < np.inf
+    assert system.largest_decay == lattice.largest_decay < np.inf
+
+
 # --- T --------------------------------------------------------------------------------------------
 
 

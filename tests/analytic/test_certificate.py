@@ -86,3 +86,15 @@ def test_a_turn_is_not_taken_for_a_small_angle():
     path = follow_path(problem, region.point, region.parameter(), 12.0)
     (count,) = count_unstable(problem, path, region, np.array([5.0]))
     assert count == problem.unstable(5.0)
+
+
+@pytest.mark.parametrize("d", [0.0, 0.3], ids=["undamped", "with a term in U"])
+def test_the_growth_of_the_unchanging_part_is_its_own_logarithmic_derivative(d):
+    """Its argument turns between close points as the growth says."""
+    problem = oscillators(8, d)
+    region = Region(threshold=0.0, lowest=0.004, highest=3.0, edge=4.0)
+    parameter = np.concatenate([t + np.array([-1e-5, 1e-5]) for t in region.parameter()[3:-1]])
+    path = follow_path(problem, region.point, parameter, 12.0)
+    turned = np.angle(path.constant[1::2] / path.constant[::2])
+    wanted = (path.growth[::2] * np.log(path.p[1::2] / path.p[::2])).imag
+    np.testing.assert_allclose(turned, wanted, rtol=1e-3, atol=1e-9)
