@@ -37,13 +37,12 @@ def unequal_chords(**lattice):
     return model, model.modes()
 
 
-def direct_forces(model, modes, p):
-    """Qhat at one p from the equations as they stand, with the general kernel and no tricks.
+def direct_matrix(model, modes, p):
+    """Normal wash per circulation of all panels at one p, with the general kernel and no tricks.
 
-    One unknown per panel; the wake is added up row by row; loads are summed over panels.
+    One unknown per panel; the wake is added up row by row.
     """
     strips, lattice, b = model.strips(modes), model.wing.lattice, model.half_chord
-    motion, length = model.panel_motion(modes), model.load_lengths
     nc, rows = lattice.chordwise, max(1, round(lattice.wake * lattice.chordwise))
     dx = strips.chord / nc
 
@@ -69,9 +68,20 @@ def direct_forces(model, modes, p):
         if j == rows - 1:
             omega = omega * z / (z - lattice.relaxation)
         A += np.tile(row(nc + j) * omega, nc)
-    g = np.linalg.solve(A, motion.slope + p / b * motion.collocation)
-    rho, width = model.wing.air.density, np.tile(strips.width, nc)[:, None]
-    pressure = rho * width * g
+    return A
+
+
+def direct_forces(model, modes, p, wash=None):
+    """Qhat at one p from the equations as they stand; of another wash than the motion's if given.
+
+    Loads are summed over panels.
+    """
+    motion, length, b = model.panel_motion(modes), model.load_lengths, model.half_chord
+    if wash is None:
+        wash = motion.slope + p / b * motion.collocation
+    g = np.linalg.solve(direct_matrix(model, modes, p), wash)
+    width = np.tile(model.strips(modes).width, model.wing.lattice.chordwise)[:, None]
+    pressure = model.wing.air.density * width * g
     return motion.vortex.T @ pressure + p / b * motion.load.T @ (length[:, None] * pressure)
 
 

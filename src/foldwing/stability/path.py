@@ -43,6 +43,8 @@ class EigenvaluePath:
         s_j(p): T(p, U) is singular where V = 1/s_j.
     constant : array of complex, shape (m,)
         det T at V = 0, scaled to unit size: the part of det T that no airspeed changes.
+    growth : array of complex, shape (m,)
+        d log(det T)/d log p at V = 0; zero where T0 does not depend on p.
     power : int
         2 without structural damping, else 1.
     shift : float
@@ -55,6 +57,7 @@ class EigenvaluePath:
     p: Complex
     inverse: Complex
     constant: Complex
+    growth: Complex
     power: int
     shift: float
     floor: float
@@ -154,7 +157,22 @@ def follow_path(
     inverse, constant, _ = factors_of(pencil, shift)
     floor = 1.0 / (shift + fastest**power)
     inverse = _matched(inverse, floor)
-    return EigenvaluePath(parameter, p, inverse, constant, power, shift, floor)
+    growth = _growth(problem, p, shift)
+    return EigenvaluePath(parameter, p, inverse, constant, growth, power, shift, floor)
+
+
+def _growth(problem: AeroelasticProblem, p: Complex, shift: float) -> Complex:
+    """Return d log(det T)/d log p at V = 0, which no airspeed changes."""
+    if shift == 0.0:
+        return np.zeros(len(p), complex)
+    T, dT = (_at_rest(part, shift) for part in problem.pencil_with_derivative(p))
+    return np.asarray(p * np.trace(np.linalg.solve(T, dT), axis1=1, axis2=2))
+
+
+def _at_rest(pencil: Pencil, shift: float) -> Complex:
+    """Return the value of a pencil at V = 0: U^2 = -shift, or U = -shift."""
+    T0, T1, T2 = pencil
+    return T0 - shift * T2 if T1 is None else T0 - shift * T1 + shift**2 * T2
 
 
 def refined(
@@ -174,6 +192,7 @@ def refined(
         p=np.concatenate([path.p, p])[order],
         inverse=_matched(np.vstack([path.inverse, inverse])[order], path.floor),
         constant=np.concatenate([path.constant, constant])[order],
+        growth=np.concatenate([path.growth, _growth(problem, p, path.shift)])[order],
     )
 
 
@@ -225,9 +244,23 @@ def winding(path: EigenvaluePath, speeds: Real) -> tuple[Real, Mask]:
     near = _distance_from_zero(start, step) <= 2.0 * bend(path)
     doubtful = (near & ~(np.abs(turn) <= CERTAIN_TURN)).any(axis=2)
     angle += 2.0 * np.pi * np.rint((turn - angle) / (2.0 * np.pi))
-    constant = np.angle(path.constant[1:] / path.constant[:-1])
-    doubtful |= np.abs(constant) > CERTAIN_TURN
-    return angle.sum(axis=(1, 2)) + constant.sum(), doubtful
+    constant, unsettled = _constant_turns(path)
+    return angle.sum(axis=(1, 2)) + constant.sum(), doubtful | unsettled
+
+
+def _constant_turns(path: EigenvaluePath) -> tuple[Real, Mask]:
+    """Change of the argument of det T at V = 0 in each step, and where it is in doubt.
+
+    It may turn by several radians while p runs around the far end of the region, in proportion to
+    the argument of p, and by as much where a root of T at V = 0 stands beside the path. The growth
+    at both ends tells which: where it is the same, the argument of p says how far it turned.
+    """
+    ahead, behind = path.growth[1:], path.growth[:-1]
+    step = np.log(path.p[1:] / path.p[:-1])
+    expected = ((ahead + behind) / 2.0 * step).imag
+    turn = np.angle(path.constant[1:] / path.constant[:-1])
+    turn += 2.0 * np.pi * np.rint((expected - turn) / (2.0 * np.pi))
+    return np.asarray(turn), np.abs((ahead - behind) * step) > CERTAIN_TURN
 
 
 def _logarithmic_steps(path: EigenvaluePath) -> Complex:
