@@ -241,6 +241,7 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
         DATASET_FILE,
         free_name,
         result_folder,
+        write_aircraft_csv,
         write_convergence_csv,
         write_csv,
         write_dataset,
@@ -263,6 +264,8 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
             write_steady_csv(dataset, staging)
         if "flight_eigenvalue" in dataset:
             write_flight_csv(dataset, staging)
+        if "lift_share" in dataset:
+            write_aircraft_csv(dataset, staging)
         if output.plot:
             from foldwing.plots import write_pictures, write_report
 

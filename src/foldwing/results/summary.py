@@ -134,13 +134,6 @@ def _flutter_answer(dataset: "xarray.Dataset") -> str:
     return already or _nothing_found(dataset)
 
 
-def motion_text(eigenvalue: complex) -> str:
-    """Return frequency in Hz and damping ratio of an oscillation, a dash where it is lost."""
-    if not np.isfinite(eigenvalue) or eigenvalue.imag == 0.0:
-        return "-"
-    return f"{eigenvalue.imag / (2 * math.pi):.3g}, {-eigenvalue.real / eigenvalue.imag:+.3f}"
-
-
 def unstable_motions(dataset: "xarray.Dataset") -> str:
     """Return which oscillations of an aircraft are beyond the boundary from the start on."""
     if "unstable_motions" not in dataset or not (dataset["unstable_motions"].values != "").any():
