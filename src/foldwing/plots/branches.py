@@ -10,7 +10,7 @@ from foldwing.plots.events import color_of, event_marks, words
 from foldwing.plots.layout import dash_of, end_labels, upright_labels
 from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import Area, Array, Item, Line, Marks, Note, Range, Rule, padded
-from foldwing.results.aircraft_table import clamped_rows
+from foldwing.results.aircraft_table import MOTIONS, clamped_rows
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 
 if TYPE_CHECKING:
@@ -144,7 +144,8 @@ def lines(
         if not finite.size:
             continue
         color = branches.colors[name]
-        items.append(Line(speed, y, color, dash_of(name), 1.8, name=f"{quantity} of {name}"))
+        label = name if name in MOTIONS else ""
+        items.append(Line(speed, y, color, dash_of(name), 1.8, f"{quantity} of {name}", label))
         if finite[-1] == len(speed) - 1:
             ends.append((float(y[-1]), name, color))
     return items + list(end_labels(ends, float(speed[-1]), y_range, height=height))

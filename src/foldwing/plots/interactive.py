@@ -225,6 +225,7 @@ def _rule(rule: Rule, suffix: str) -> Json:
 
 def _line(line: Line, panel: Panel) -> Json:
     name = line.label or line.name
+    title = line.name or line.label
     hover = f"{_value('x', panel.x_label)}<br>{_value('y', panel.y_label)}"
     return {
         "type": "scatter",
@@ -236,7 +237,7 @@ def _line(line: Line, panel: Panel) -> Json:
         "opacity": line.opacity,
         "line": {"color": f"@{line.color}", "width": line.width, "dash": _DASHES[line.dash]},
         **(
-            {"hovertemplate": f"<b>{name}</b><br>{hover}<extra></extra>"}
+            {"hovertemplate": f"<b>{title}</b><br>{hover}<extra></extra>"}
             if name
             else {"hoverinfo": "skip"}
         ),
