@@ -13,8 +13,8 @@ from foldwing.plots.flight_modes import flight_against_speed, flight_eigenvalues
 from foldwing.plots.frequencies import natural_frequencies
 from foldwing.plots.loads import flutter_circulation, pressure, pressure_of_modes
 from foldwing.plots.loci import against_speed, root_locus
-from foldwing.plots.picture import Picture
 from foldwing.plots.motions import motions
+from foldwing.plots.picture import Picture
 from foldwing.plots.response import response
 from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
 from foldwing.plots.steady import circulation, circulation_across, circulation_in_space

@@ -9,7 +9,6 @@ from foldwing.plots.layout import PANEL_INCHES, subject, subtitle, threshold
 from foldwing.plots.picture import Array, Bars, Note, Panel, Picture, Rule
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.summary import fold_text
-from foldwing.stability.status import ELASTIC
 
 if TYPE_CHECKING:
     import xarray
@@ -76,7 +75,7 @@ def onsets(dataset: "xarray.Dataset") -> list[tuple[int, FlutterRow]]:
 
     Phugoid and short period of an aircraft do not count: they are no flutter.
     """
-    rows = [entry for entry in enumerate(flutter_rows(dataset)) if entry[1].motion == ELASTIC]
+    rows = [entry for entry in enumerate(flutter_rows(dataset)) if not entry[1].as_a_whole]
     found = [entry for entry in rows if (entry[1].kind, entry[1].event) == ("flutter", "onset")]
     return sorted(found, key=lambda entry: entry[1].speed)
 

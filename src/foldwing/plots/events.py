@@ -31,7 +31,7 @@ def words(row: FlutterRow) -> str:
 
     A motion of an aircraft as a whole that grows is no flutter.
     """
-    if row.motion != ELASTIC and row.kind == "flutter":
+    if row.as_a_whole:
         does = "ceases" if row.event == "recovery" else "begins"
         return f"{row.motion} {does} to grow"
     if row.motion != ELASTIC and row.event == "merger":

@@ -37,8 +37,13 @@ _GAP, _ROW_GAP = 22, 62
 _COLUMN_GAP = 0.12
 Domain = tuple[tuple[float, float] | None, tuple[float, float]]
 _TOP, _BOTTOM, _LEGEND_ROW = 30, 56, 22
-_DASHES = {"solid": "solid", "dash": "8px,4px", "dot": "2px,3px",
-           "dashdot": "9px,3px,2px,3px", "longdash": "15px,4px"}
+_DASHES = {
+    "solid": "solid",
+    "dash": "8px,4px",
+    "dot": "2px,3px",
+    "dashdot": "9px,3px,2px,3px",
+    "longdash": "15px,4px",
+}
 _SYMBOLS = {
     "circle": "circle",
     "circle-open": "circle",

@@ -8,7 +8,7 @@ from foldwing.plots.branches import Branches, branches_of, lines, rule_labels, r
 from foldwing.plots.events import event_marks
 from foldwing.plots.layout import subtitle
 from foldwing.plots.level_flight import slowest
-from foldwing.plots.picture import Array, Item, Panel, Picture, Range, Rule, padded
+from foldwing.plots.picture import Array, Item, Note, Panel, Picture, Range, Rule, padded
 from foldwing.results.aircraft_table import MOTIONS, motions_found
 from foldwing.results.flutter_table import FlutterRow
 from foldwing.results.summary import fold_text
@@ -72,7 +72,8 @@ def _phugoid(every: Branches, found: dict[str, int]) -> list[Panel]:
         values = getattr(side, quantity)
         y_range = _magnified(values[:, 0])
         items: list[Item] = [Rule(0.0, "y", "ink", width=1.2)]
-        items += lines(side, values, y_range, quantity)
+        named = lines(side, values, y_range, quantity)
+        items += [i for i in named if not isinstance(i, Note) or i.text != "phugoid"]
         items += rules(side)
         items += _marks(side) if quantity == "frequency" else []
         items += rule_labels(side, y_range[0], _INCHES) if quantity == "growth" else []

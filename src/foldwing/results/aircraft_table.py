@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from foldwing.results.flutter_table import FlutterRow, flutter_rows
+from foldwing.results.flutter_table import FlutterRow
 from foldwing.results.schema import fold_angle_names
 from foldwing.results.steady_table import Table
 from foldwing.results.writing import write_table
@@ -71,7 +71,7 @@ def shown_speeds(dataset: "xarray.Dataset") -> list[int]:
 def points_table(rows: Sequence[FlutterRow]) -> Table:
     """Return flutter points with the motion that each belongs to."""
     heads = ("U m/s", "f Hz", "kind", "event", "class", "mode", "motion")
-    lines = [
+    lines: list[tuple[str, ...]] = [
         (
             f"{row.speed:.2f}",
             f"{row.frequency:.2f}" if row.frequency > 0.0 else "-",
@@ -190,9 +190,3 @@ def _motion_lines(dataset: "xarray.Dataset") -> Iterator[Sequence[Any]]:
             numbers = [float(column[at, place]) for column in columns]
             if np.isfinite(numbers[0]):
                 yield (speed, name, *numbers)
-
-
-def whole_motions(dataset: "xarray.Dataset") -> list[FlutterRow]:
-    """Return where phugoid or short period begin or cease to grow: no boundary of the flight."""
-    rows = flutter_rows(dataset)
-    return [row for row in rows if row.kind == "flutter" and row.motion != ELASTIC]
