@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 _MOST_MODES = 6
 _AMPLITUDE = 0.16
 """Largest displacement drawn, as a share of the size of the wing."""
+_NOTHING = 1e-9
+"""Share of a motion that is round-off."""
 _PHASES = 6
 _FRAMES = 24
 _PER_SEGMENT = tuple[Array, ...]
@@ -177,7 +179,7 @@ def _size(rest: _PER_SEGMENT) -> float:
 
 
 def _scaled(motion: _PER_SEGMENT, rest: _PER_SEGMENT) -> _PER_SEGMENT:
-    """Scale a motion to be seen well; its largest normal displacement is up."""
+    """Scale a motion to be seen well; its largest displacement across the sheet is up."""
     factor = _factor(motion, rest)
     return tuple(grid * factor for grid in motion)
 
@@ -190,6 +192,9 @@ def _factor(motion: _PER_SEGMENT, rest: _PER_SEGMENT, beside: float = 0.0) -> An
     largest = max(beside, *(float(np.abs(grid).max()) for grid in motion))
     if largest == 0:
         return 1.0
+    if abs(extreme) < _NOTHING * largest:  # a motion in the plane of the wing is drawn aft
+        aft = np.concatenate([grid[..., 0].ravel() for grid in motion])
+        extreme = aft[np.argmax(np.abs(aft))]
     turn = np.conj(extreme) / abs(extreme) if extreme != 0 else 1.0
     return turn * _AMPLITUDE * _size(rest) / largest
 
