@@ -39,6 +39,10 @@ DEGREE = math.pi / 180.0
 """One degree in radians."""
 
 
+STANDARD_GRAVITY = 9.80665
+"""m/s^2."""
+
+
 def hertz(angular_frequency: float) -> float:
     """Return a frequency in Hz from an angular frequency in rad/s."""
     return angular_frequency / (2.0 * math.pi)

@@ -14,16 +14,21 @@ import foldwing
 OF_A_MODEL = {"--fold", "--fold-of", "--basis", "--plot", "--no-plot", "--out", "--force", "--json"}
 OF_AN_AIRSTREAM = {"--aero", "--panels", "--spacing", "--gap", "--drop-mode"}
 OF_A_SEARCH = OF_AN_AIRSTREAM | {"--max-speed", "--damping", "--damping-threshold"}
+OF_AN_AIRCRAFT = {"--tail-aero", "--trim"}
 OPTIONS = {
     "examples": {"--copy"},
     "schema": set(),
-    "modes": OF_A_MODEL | {"--measured"},
-    "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds", "--method", "--time-step"},
+    "modes": OF_A_MODEL | {"--measured", "--clamped"},
+    "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds", "--method", "--time-step", "--clamped"},
     "steady": (OF_A_MODEL - {"--basis"})
-    | {"--alpha", "--speed", "--panels", "--spacing", "--gap", "--image"},
-    "flight": {"--speeds", "--plot", "--no-plot", "--out", "--force", "--json"},
-    "boundary": OF_A_MODEL | OF_A_SEARCH | {"--measured", "--trace", "--jobs"},
-    "convergence": OF_A_MODEL | OF_A_SEARCH | {"--vary", "--levels", "--jobs"},
+    | {"--alpha", "--speed", "--panels", "--spacing", "--gap", "--image", "--clamped"},
+    "aircraft": OF_A_MODEL | OF_A_SEARCH | OF_AN_AIRCRAFT | {"--speeds"},
+    "flight": (OF_A_MODEL - {"--basis"}) | {"--speed", "--speeds"},
+    "boundary": OF_A_MODEL
+    | OF_A_SEARCH
+    | OF_AN_AIRCRAFT
+    | {"--measured", "--trace", "--jobs", "--clamped"},
+    "convergence": OF_A_MODEL | OF_A_SEARCH | {"--vary", "--levels", "--jobs", "--clamped"},
 }
 
 

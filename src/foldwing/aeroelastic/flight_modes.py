@@ -111,7 +111,7 @@ class _Trial:
 
 
 def _candidates(system: AeroelasticSystem, speed: float) -> _Trial:
-    values, share = _quasi_steady_roots(system, speed)
+    values, share = _oscillations(system, speed)
     elastic = system.omega[~system.rigid]
     lowest = float(elastic[0]) if len(elastic) else np.inf
     whole = values[share > AS_A_WHOLE]
@@ -120,8 +120,23 @@ def _candidates(system: AeroelasticSystem, speed: float) -> _Trial:
     return _Trial(speed, phugoid, short, lowest)
 
 
-def _quasi_steady_roots(system: AeroelasticSystem, speed: float) -> tuple[Complex, Real]:
+def _oscillations(system: AeroelasticSystem, speed: float) -> tuple[Complex, Real]:
     """Return oscillating roots in rad/s, the slowest first, and the share of rigid motion."""
+    values, vectors = _quasi_steady(system, speed)
+    size = np.abs(values).max()
+    kept = np.flatnonzero(values.imag > 1e-9 * size)
+    kept = kept[np.argsort(np.abs(values[kept]))]
+    energy = np.abs(vectors[: system.size, kept]) ** 2
+    return values[kept], energy[system.rigid].sum(axis=0) / energy.sum(axis=0)
+
+
+def quasi_steady_roots(system: AeroelasticSystem, speed: float) -> Complex:
+    """Return all roots in rad/s with quasi-steady forces, neutral ones near zero, shape (2 n,)."""
+    return _quasi_steady(system, speed)[0]
+
+
+def _quasi_steady(system: AeroelasticSystem, speed: float) -> tuple[Complex, Complex]:
+    """Return eigenvalues and vectors (displacements over velocities) of one matrix."""
     n, b, k = system.size, system.half_chord, np.array([1j * LOW])
     air, omega = system.aerodynamics, system.omega
     rate = speed * b * air.forces(k)[0].imag / LOW
@@ -132,11 +147,7 @@ def _quasi_steady_roots(system: AeroelasticSystem, speed: float) -> tuple[Comple
     mass = np.eye(n) + air.apparent_mass()
     lower = np.linalg.solve(mass, np.hstack([stiffness, damping]))
     values, vectors = scipy.linalg.eig(np.vstack([np.eye(n, 2 * n, n), -lower]))
-    size = np.abs(values).max()
-    kept = np.flatnonzero(values.imag > 1e-9 * size)
-    kept = kept[np.argsort(np.abs(values[kept]))]
-    energy = np.abs(vectors[:n, kept]) ** 2
-    return values[kept], energy[system.rigid].sum(axis=0) / energy.sum(axis=0)
+    return np.asarray(values, complex), np.asarray(vectors, complex)
 
 
 def with_motions(

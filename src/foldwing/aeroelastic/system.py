@@ -22,6 +22,7 @@ import numpy as np
 
 from foldwing.aerodynamics.combined import CombinedModel
 from foldwing.aerodynamics.port import AerodynamicModel
+from foldwing.aerodynamics.schemes import Rates
 from foldwing.maths.arrays import Complex, Mask, Real
 from foldwing.stability.problem import Pencil, StillAir
 
@@ -126,7 +127,7 @@ class AeroelasticSystem:
         """Return the coefficients of T at the values ``p``, shape (m,)."""
         p = np.asarray(p, complex)
         rates = self.aerodynamics.scheme.rates(p / self.half_chord)
-        minus_B = self._in_coordinates(self.aerodynamics.forces(p), _stacked(rates.inertia))
+        minus_B = self._inertia_less(self.aerodynamics.forces(p), rates)
         damping = None if self._damping is None else _stacked(rates.rate) * self._damping
         if self.trim_forces is not None:
             constant = self._stiffness + self._in_coordinates(self.trim_forces.forces(p), 0.0)
@@ -145,7 +146,7 @@ class AeroelasticSystem:
         b = self.half_chord
         rates, slopes = self.aerodynamics.scheme.rates_with_derivative(p / b)
         Q, dQ = self.aerodynamics.forces_with_derivative(p)
-        minus_B = self._in_coordinates(Q, _stacked(rates.inertia))
+        minus_B = self._inertia_less(Q, rates)
         slope = self._in_coordinates(dQ, _stacked(slopes.inertia) / b)
         damping, damping_slope = None, None
         if self._damping is not None:
@@ -171,6 +172,22 @@ class AeroelasticSystem:
         neutral = self.neutral
         part[:, :, neutral] /= p[:, None, None]
         slope[:, :, neutral] = (slope[:, :, neutral] - part[:, :, neutral]) / p[:, None, None]
+
+    def _inertia_less(self, forces: Complex, rates: Rates) -> Complex:
+        """Return inertia less forces, those on neutral motions at p = 0 exactly zero.
+
+        What round-off leaves of them would be magnified when their columns are divided by p.
+        """
+        result = self._in_coordinates(forces, _stacked(rates.inertia))
+        if self.neutral.any():
+            result[:, :, self.neutral] += self._round_off
+        return result
+
+    @cached_property
+    def _round_off(self) -> Real:
+        """Steady forces of neutral motions in the coordinates of T, shape (n, neutral)."""
+        steady = self.rotation.T @ self.aerodynamics.steady_forces() @ self.rotation
+        return np.asarray((self._scaling * steady)[:, self.neutral])
 
     def _in_coordinates(self, forces: Complex, inertia: Complex | float) -> Complex:
         """Return ``inertia`` times the mass less the forces, in the coordinates of T."""

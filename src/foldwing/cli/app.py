@@ -312,6 +312,9 @@ def aircraft(
 @app.command()
 def flight(
     model: options.Model,
+    fold: options.Fold = None,
+    fold_of: options.FoldOf = None,
+    speed: options.CruiseSpeed = None,
     speeds: options.FlightSpeeds = None,
     plot: options.Plot = True,
     out: options.Out = None,
@@ -322,4 +325,7 @@ def flight(
     from foldwing.cli.commands import Output
     from foldwing.cli.flight import FlightRequest, run_flight
 
-    run_flight(FlightRequest(model, speeds), Output(plot, out, force, json))
+    request = FlightRequest(
+        model, fold, fold_of, speed=options.number("--speed", speed, "54"), speeds=speeds
+    )
+    run_flight(request, Output(plot, out, force, json))

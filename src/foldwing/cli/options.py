@@ -212,6 +212,10 @@ Json = Annotated[
     typer.Option("--json", help="One JSON document on standard output; no files without --out."),
 ]
 
+CruiseSpeed = Annotated[
+    str | None,
+    typer.Option("--speed", metavar="M/S", help="Airspeed of the flight, instead of the model's."),
+]
 FlightSpeeds = Annotated[
     str | None,
     typer.Option(

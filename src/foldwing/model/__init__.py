@@ -35,7 +35,14 @@ from foldwing.model.library import (
 )
 from foldwing.model.material import Material, strip_inertia, strip_properties
 from foldwing.model.parts import Air, Analysis, Hinge, HingeKind, Lattice, PointMass, Segment
-from foldwing.model.reader import model_text, parse_flight, parse_model, read_flight, read_model
+from foldwing.model.reader import (
+    model_text,
+    parse_file,
+    parse_flight,
+    parse_model,
+    read_flight,
+    read_model,
+)
 from foldwing.model.schema import json_schema
 from foldwing.model.wing import Wing
 
@@ -65,6 +72,7 @@ __all__ = [
     "list_examples",
     "measurement_names",
     "model_text",
+    "parse_file",
     "parse_flight",
     "parse_model",
     "read_flight",

@@ -3,9 +3,11 @@
 import math
 from typing import Literal
 
+from foldwing.conventions import STANDARD_GRAVITY
 from foldwing.model.parts import MID_CHORD, Segment
 from foldwing.model.quantities import (
     Acceleration,
+    Airspeed,
     ChordFraction,
     Length,
     LiftCoefficient,
@@ -108,15 +110,18 @@ class Aircraft(Record):
         "theodorsen" or "quasi-steady".
     largest_lift_coefficient : float
         What a surface can lift at most; trim beyond it is computed, and called out of reach.
+    cruise_speed : float, optional
+        Airspeed in m/s at which the rigid aircraft is looked at.
     """
 
     fuselage: Fuselage
     tail: Tail
-    gravity: Acceleration = 9.81
+    gravity: Acceleration = STANDARD_GRAVITY
     trim: Trim = "force"
     wing_aerodynamics: WingTheory = "theodorsen"
     tail_aerodynamics: TailTheory = "theodorsen"
     largest_lift_coefficient: LiftCoefficient = 1.2
+    cruise_speed: Airspeed | None = None
 
 
 def quarter_chord(segment: Segment) -> float:

@@ -5,6 +5,7 @@ from typing import Self
 
 from pydantic import StrictBool, model_validator
 
+from foldwing.conventions import STANDARD_GRAVITY
 from foldwing.model.faults import as_input_error, fault, shown
 from foldwing.model.parts import Air
 from foldwing.model.quantities import (
@@ -25,9 +26,6 @@ from foldwing.model.quantities import (
     TailArm,
 )
 from foldwing.model.record import Record
-
-STANDARD_GRAVITY = 9.80665
-"""m/s^2."""
 
 _FORMS = "Give [flight.wing] and [flight.tail], or [flight.derivatives], or matrix."
 _OF_ALL = {"speed", "gravity"}

@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, StrictBool, model_validator
 
+from foldwing.conventions import STANDARD_GRAVITY
 from foldwing.errors import InputError
 from foldwing.model.aircraft import TailTheory, Trim, WingTheory
 from foldwing.model.faults import fault
@@ -13,6 +14,7 @@ from foldwing.model.material import Material
 from foldwing.model.parts import MID_CHORD, MOST_SPRINGS, Air, Analysis, Lattice, PointMass
 from foldwing.model.quantities import (
     Acceleration,
+    Airspeed,
     Angle,
     ChordFraction,
     Count,
@@ -170,11 +172,12 @@ class AircraftTable(Record):
     figures: Literal["half", "full"] = "full"
     tail_arm: TailArm | None = None
     centre_of_gravity: Position | None = None
-    gravity: Acceleration = 9.81
+    gravity: Acceleration = STANDARD_GRAVITY
     trim: Trim = "force"
     wing_aerodynamics: WingTheory = "theodorsen"
     tail_aerodynamics: TailTheory = "theodorsen"
     largest_lift_coefficient: LiftCoefficient = 1.2
+    cruise_speed: Airspeed | None = None
 
     @model_validator(mode="after")
     def _places_its_parts(self) -> Self:

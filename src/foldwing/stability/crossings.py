@@ -17,7 +17,7 @@ ROUND_OFF = 1e-10
 SAME_POINT = 1e-7
 """Relative difference in U and k below which two flutter points are one."""
 
-LEAST_FREQUENCY = 1e-8
+LEAST_FREQUENCY = 1e-9
 """Reduced frequency below which a crossing is divergence, found at p = 0 instead."""
 
 BESIDE_ZERO = LEAST_FREQUENCY

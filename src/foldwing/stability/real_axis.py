@@ -15,7 +15,7 @@ from foldwing.stability.path import EigenvaluePath, follow_path
 from foldwing.stability.problem import AeroelasticProblem, evaluate_with_derivatives
 from foldwing.stability.region import RIGHT_EDGE
 
-LEAST = 1e-8
+LEAST = 1e-9
 """The smallest p that is sought."""
 
 POINTS = 80
@@ -31,7 +31,7 @@ ZOOMS = 4
 def real_axis_path(
     problem: AeroelasticProblem, fastest: float, edge: float = RIGHT_EDGE
 ) -> EigenvaluePath:
-    """Return the inverse speeds along 1e-8 <= p <= ``edge`` on the real axis, parameter ln p."""
+    """Return the inverse speeds along 1e-9 <= p <= ``edge`` on the real axis, parameter ln p."""
     parameter = np.linspace(np.log(LEAST), np.log(edge), POINTS)
     return follow_path(problem, _point, parameter, fastest)
 

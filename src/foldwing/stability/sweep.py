@@ -117,12 +117,14 @@ def _wide_enough(
     Without apparent mass nothing else bounds how fast a root grows.
     """
     speeds = np.geomspace(*speed_range, WIDTH_SPEEDS)
+    limit = resolved_frequency(problem, region.threshold)
     counts = []
     for _ in range(WIDENINGS):
         counts.append(_count(problem, region, speeds))
         if len(counts) > 2 and np.array_equal(counts[-1], counts[-3]) and counts[-1].min() >= 0:
             break
-        region = replace(region, edge=2.0 * region.edge, highest=2.0 * region.highest)
+        highest = min(2.0 * region.highest, limit)
+        region = replace(region, edge=2.0 * region.edge, highest=highest)
     return region
 
 

@@ -66,4 +66,5 @@ def _together(parts: Sequence[MassCentre]) -> MassCentre:
     for part in parts:
         place = place + part.mass / total * part.position
         moved = moved + part.mass / total * part.displacement
-    return MassCentre("aircraft", total, place, moved)
+    aside = np.array([1.0, 0.0, 1.0])  # the other half balances this one
+    return MassCentre("aircraft", total, place * aside, moved * aside[:, None])

@@ -116,10 +116,14 @@ def check_speeds(model: FlightModel, speeds: Sequence[float] | Real) -> None:
         remedy = "Leave the airspeeds out, or describe [flight.wing] and [flight.tail]."
         raise InputError("--speeds", _shown(speeds), limit, remedy)
     for speed in speeds:
-        if not LEAST_SPEED <= speed <= MOST_SPEED:
-            limit = f"must be {LEAST_SPEED:g} to {MOST_SPEED:g} m/s"
-            remedy = "An aircraft in level flight moves: start for example at 25:60:5."
-            raise InputError("--speeds", float(speed), limit, remedy)
+        check_flight_speed(float(speed), "--speeds", "start for example at 25:60:5")
+
+
+def check_flight_speed(speed: float, field: str = "--speed", remedy: str = "give 54") -> None:
+    """Raise `InputError` unless an airspeed in m/s is one of level flight."""
+    if not LEAST_SPEED <= speed <= MOST_SPEED:
+        limit = f"must be {LEAST_SPEED:g} to {MOST_SPEED:g} m/s"
+        raise InputError(field, speed, limit, f"An aircraft in level flight moves: {remedy}.")
 
 
 def _check_comparisons(
