@@ -47,7 +47,7 @@ Events = list[FlutterRow]
 def beside_clamped(dataset: "xarray.Dataset") -> Picture | None:
     """Draw growth and frequency of the clamped wing on the left, of the aircraft on the right."""
     fixed = clamped_branches(dataset)
-    if fixed is None or "growth" not in dataset:
+    if fixed is None or "growth" not in dataset or len(fixed.speed) < 2:
         return None
     free = branches_of(without_neutral(dataset))
     top = max(highest_shown(fixed), highest_shown(free))
@@ -77,7 +77,7 @@ def beside_clamped(dataset: "xarray.Dataset") -> Picture | None:
         _story(*events),
         subtitle(dataset, fold_text(dataset, 0)) + ". Left the wing with its root clamped, right "
         "the aircraft: the same axes, and the same mode in the same colour. Above zero (shaded) a "
-        f"motion grows. Modes that stay above {top:.2g} Hz are not shown."
+        f"motion grows. Modes that stay above {top:.3g} Hz are not shown."
         + reach_words(dataset)
         + neutral_words(dataset),
         panels,

@@ -52,7 +52,7 @@ def reach_words(dataset: "xarray.Dataset") -> str:
     if not end > float(dataset["speed"][0]):
         return ""
     largest = float(dataset["slowest_speed"].attrs["lift_coefficient"])
-    return (
-        f" Hatched: below {end:.3g} m/s level flight needs a lift coefficient above {largest:g}; "
-        "the curves there are with the lift that this one gives."
-    )
+    text = f" Hatched: below {end:.3g} m/s level flight needs a lift coefficient above {largest:g}"
+    if end >= float(dataset.attrs.get("speed_limit", np.inf)):
+        return f"{text} and is out of reach; the curves stand for none."
+    return f"{text}; the curves there are with the lift that this one gives."

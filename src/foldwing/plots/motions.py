@@ -26,7 +26,9 @@ _ROOM = 1.0
 def motions(dataset: "xarray.Dataset") -> Picture | None:
     """Draw the motions as a whole: the phugoid on the left in its own scale, all on the right."""
     found = motions_found(dataset)
-    if not found or not np.isfinite(dataset["growth"].values[0][:, list(found.values())]).any():
+    if not found or dataset.sizes["speed"] < 2:
+        return None
+    if not np.isfinite(dataset["growth"].values[0][:, list(found.values())]).any():
         return None
     every = branches_of(dataset)
     names = [name for name in MOTIONS if name in found]
@@ -43,16 +45,22 @@ def motions(dataset: "xarray.Dataset") -> Picture | None:
         if len(shown) > 1
         else ""
     )
-    end = slowest(dataset)
     return Picture(
         "motions",
         f"How the aircraft moves as a whole: {' and '.join(names)}",
-        f"{subtitle(dataset, fold_text(dataset, 0))}.{magnified} From the slowest level flight, "
-        f"{end:.3g} m/s, on.",
+        f"{subtitle(dataset, fold_text(dataset, 0))}.{magnified}{_since(dataset)}",
         panels,
         columns=len(shown),
         right_margin=1.05,
     )
+
+
+def _since(dataset: "xarray.Dataset") -> str:
+    """Return from which airspeed on the aircraft can carry its weight."""
+    end = slowest(dataset)
+    if end < float(dataset["speed"][-1]):
+        return f" Shown from the slowest level flight, {end:.3g} m/s, on."
+    return f" At none of these airspeeds can the aircraft carry its weight, only from {end:.3g} m/s on."
 
 
 def _across(every: Branches, found: dict[str, int]) -> Range:

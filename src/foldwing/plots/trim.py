@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from foldwing.plots.layout import PANEL_INCHES, end_labels, subtitle, sweep
-from foldwing.plots.level_flight import OUT_OF_REACH, out_of_reach, slowest
+from foldwing.plots.level_flight import out_of_reach, slowest
 from foldwing.plots.palette import SERIES
 from foldwing.plots.picture import (
     Array,
@@ -146,7 +146,8 @@ def _coefficients(
 ) -> tuple[list[Item], Range, Range]:
     values, end = dataset["surface_lift_coefficient"].values[0], slowest(dataset)
     least = float(np.nanmin(values[dataset["speed"].values >= end], initial=0.0))
-    y_range = (_ROOM * least - 0.04 * largest, _ROOM * largest)
+    top = max(_ROOM * largest, 1.2 * float(np.nanmax(values[-1])))
+    y_range = (_ROOM * least - 0.04 * top, top)
     items = [
         *out_of_reach(dataset, limits, y_range),
         Rule(largest, "y", "ink", "dot", 1.4),
@@ -176,6 +177,3 @@ def _angles(dataset: "xarray.Dataset", limits: Range) -> tuple[list[Item], Range
         items.append(Line(speed, angle, color, dash, 1.8, name=name or "angle of attack"))
         ends.append((float(angle[-1]), name, color))
     return [*items, *end_labels(ends, limits[1], y_range, height=0.9)], limits, y_range
-
-
-__all__ = ["OUT_OF_REACH", "trim", "trim_against_speed"]
