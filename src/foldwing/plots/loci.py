@@ -159,8 +159,8 @@ def _paths(shown: Branches) -> list[Item]:
             continue
         items.append(Graded(x, y, speed, limits, "airspeed (m/s)", name))
         if name in MOTIONS:
-            look = shown.colors[name], dash_of(name)
-            items.append(Line(x, y, *look, 0.9, name=name, label=f"{name} (thin line)"))
+            label = f"{name} (thin line)"
+            items.append(Line(x, y, "ink", dash_of(name), 1.0, name=name, label=label))
     return items
 
 

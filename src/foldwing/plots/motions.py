@@ -60,7 +60,7 @@ def _since(dataset: "xarray.Dataset") -> str:
     end = slowest(dataset)
     if end < float(dataset["speed"][-1]):
         return f" Shown from the slowest level flight, {end:.3g} m/s, on."
-    return f" At none of these airspeeds can the aircraft carry its weight, only from {end:.3g} m/s on."
+    return f" The aircraft can carry its weight only from {end:.3g} m/s on: at none of these."
 
 
 def _across(every: Branches, found: dict[str, int]) -> Range:

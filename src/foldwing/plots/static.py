@@ -41,7 +41,7 @@ from foldwing.plots.static_base import (
 from foldwing.plots.static_scenes import draw_scenes
 
 _LEFT, _BOTTOM, _GAP, _ROW_GAP = 0.88, 0.52, 0.18, 0.62
-_LEGEND_POINTS, _POINTS, _HANDLE = 8.5, 72.0, 0.5
+_LEGEND_POINTS, _POINTS, _HANDLE = 8.5, 72.0, 0.62
 """Size of the text of a legend, points of an inch, and what a column needs besides its text."""
 Box = tuple[float, float, float, float]
 _DASHES: Mapping[str, Any] = {
@@ -358,6 +358,7 @@ def _add_legend(figure: Figure, legend: dict[str, Any], colors: Colors) -> None:
         fontsize=_LEGEND_POINTS,
         labelcolor=colors["ink"],
         columnspacing=1.6,
+        handlelength=3.0,
         handletextpad=0.5,
         borderpad=0.2,
         labelspacing=0.35,
