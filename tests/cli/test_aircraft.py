@@ -227,6 +227,10 @@ def test_files_of_an_aircraft_hold_the_dataset(cli, empty_folder):
     given = np.array([float(row["lift_coefficient"] or "nan") for row in trim])
     np.testing.assert_array_equal(given, dataset["surface_lift_coefficient"].values.ravel())
 
+    for surface, name in (("segment 3", "trim_angle"), ("tail", "trim_tail_angle")):
+        given = [float(r["angle_of_attack"] or "nan") for r in trim if r["surface"] == surface]
+        np.testing.assert_array_equal(given, dataset[name].values[0])
+
     motions = table(folder / "motions.csv")
     assert list(motions[0]) == "speed motion growth frequency damping".split()
     place = dataset["branch_name"].values.tolist().index("phugoid")
