@@ -359,7 +359,7 @@ def _add_legend(figure: Figure, legend: dict[str, Any], colors: Colors) -> None:
         labelcolor=colors["ink"],
         columnspacing=1.6,
         handlelength=3.0,
-        handletextpad=0.5,
+        handletextpad=0.8,
         borderpad=0.2,
         labelspacing=0.35,
     )
