@@ -23,7 +23,7 @@ OPTIONS = {
     "steady": (OF_A_MODEL - {"--basis"})
     | {"--alpha", "--speed", "--panels", "--spacing", "--gap", "--image", "--clamped"},
     "aircraft": OF_A_MODEL | OF_A_SEARCH | OF_AN_AIRCRAFT | {"--speeds"},
-    "flight": (OF_A_MODEL - {"--basis"}) | {"--speed", "--speeds"},
+    "flight": (OF_A_MODEL - {"--basis"}) | OF_AN_AIRCRAFT | {"--speed", "--speeds"},
     "boundary": OF_A_MODEL
     | OF_A_SEARCH
     | OF_AN_AIRCRAFT

@@ -17,7 +17,15 @@ from foldwing.cli.main import run
 from foldwing.model import DerivativesTable, Surface, parse_model
 from foldwing.model.quantities import Quantity
 from foldwing.model.record import Record
-from foldwing.model.schema import HingeTable, ModelFile, SegmentTable, WingTable
+from foldwing.model.schema import (
+    AircraftTable,
+    FuselageTable,
+    HingeTable,
+    ModelFile,
+    SegmentTable,
+    TailTable,
+    WingTable,
+)
 from foldwing.results.variables import COORDINATES, VARIABLES
 
 ROOT = Path(__file__).parents[2]
@@ -86,7 +94,7 @@ def run_commands(block):
         if line.startswith("foldwing "):
             words = shlex.split(line.split(">")[0], comments=True)[1:]
             draws = (
-                words[0] in ("modes", "flutter", "boundary", "steady", "flight")
+                words[0] in ("modes", "flutter", "boundary", "steady", "aircraft", "flight")
                 and "--no-plot" not in words
             )
             assert run([*words, *(["--no-plot"] if draws else [])]) == 0, line
@@ -167,13 +175,16 @@ TABLES = [
     ("air", table("air"), set()),
     ("analysis", table("analysis"), set()),
     ("lattice", table("lattice"), set()),
+    ("aircraft", AircraftTable, {"fuselage", "tail"}),
+    ("aircraft.fuselage", FuselageTable, set()),
+    ("aircraft.tail", TailTable, set()),
     ("flight", table("flight"), {"wing", "tail", "derivatives"}),
     ("flight.wing and flight.tail", Surface, set()),
     ("flight.derivatives", DerivativesTable, set()),
 ]
 
 
-@pytest.mark.parametrize(("heading", "model", "elsewhere"), TABLES, ids=lambda value: str(value))
+@pytest.mark.parametrize(("heading", "model", "elsewhere"), TABLES, ids=[row[0] for row in TABLES])
 def test_every_key_is_described(heading, model, elsewhere):
     described = rows("model-file", heading)
     assert set(described) == set(model.model_fields) - elsewhere

@@ -157,17 +157,25 @@ def with_motions(
 
     A merger belongs to the pair that turns real there.
     """
-    if not modes.names or not analysis.points:
+    doubtful = [index for index, point in enumerate(analysis.points) if _is_doubtful(point)]
+    if not modes.names or not doubtful:
         return analysis
-    at = np.array([_compared_at(point) for point in analysis.points])
+    points = list(analysis.points)
+    at = np.array([_compared_at(points[index]) for index in doubtful])
     order: Indices = np.argsort(at)
     values = np.empty((len(at), len(modes.names)), complex)
     values[order] = modes.eigenvalues(system, at[order])
-    points = tuple(
-        replace(point, motion=_motion(point, row, system.half_chord, modes.names))
-        for point, row in zip(analysis.points, values, strict=True)
-    )
-    return replace(analysis, points=points)
+    for index, row in zip(doubtful, values, strict=True):
+        motion = _motion(points[index], row, system.half_chord, modes.names)
+        points[index] = replace(points[index], motion=motion)
+    return replace(analysis, points=tuple(points))
+
+
+def _is_doubtful(point: FlutterPoint) -> bool:
+    """Return whether a point was not followed down to a natural mode at rest."""
+    if point.kind == "flutter":
+        return point.mode_confidence < 1.0
+    return point.event == "merger"
 
 
 def _compared_at(point: FlutterPoint) -> float:
@@ -176,8 +184,6 @@ def _compared_at(point: FlutterPoint) -> float:
 
 def _motion(point: FlutterPoint, values: Complex, b: float, names: tuple[str, ...]) -> str:
     """Return the name of the branch that a point lies on, else what it is called already."""
-    if point.kind == "divergence" and point.event != "merger":
-        return point.motion
     distance = np.abs(values * b / (point.speed * point.p) - 1.0)
     limit = BESIDE_MERGER if point.event == "merger" else SAME_ROOT
     distance = np.where(np.isfinite(distance), distance, np.inf)

@@ -80,22 +80,30 @@ class AeroelasticSystem:
     def rotation(self) -> Real:
         """Orthogonal (n, n) matrix whose columns are the coordinates of T in modal coordinates.
 
-        It mixes rigid motions only, with the neutral ones last among them.
+        It mixes rigid motions only, with the neutral ones last among them, and only where more than
+        one of them feels a steady force.
         """
         V = np.eye(self.size)
-        if self.rigid.any():
-            steady = self.aerodynamics.steady_forces()[:, self.rigid]
+        steady = self.aerodynamics.steady_forces()[:, self.rigid]
+        if self._is_felt(steady).sum() > 1:
             _, _, Vh = np.linalg.svd(steady)
             V[np.ix_(self.rigid, self.rigid)] = Vh.T
         return V
 
+    def _is_felt(self, steady: Real) -> Mask:
+        """Return which columns of steady forces are more than round-off."""
+        typical = float(np.linalg.norm(self.aerodynamics.forces(np.array([1j]))[0], 2))
+        return np.asarray(np.linalg.norm(steady, axis=0) >= NEUTRAL_TOLERANCE * typical)
+
+    @cached_property
+    def _is_rotated(self) -> bool:
+        return not np.array_equal(self.rotation, np.eye(self.size))
+
     @cached_property
     def neutral(self) -> Mask:
         """Which columns of T are neutral motions: exact zero roots at every airspeed."""
-        steady = self.aerodynamics.steady_forces()
-        size = np.linalg.norm(steady @ self.rotation, axis=0)
-        typical = float(np.linalg.norm(self.aerodynamics.forces(np.array([1j]))[0], 2))
-        return np.asarray(self.rigid & (size < NEUTRAL_TOLERANCE * typical))
+        steady = self.aerodynamics.steady_forces() @ self.rotation
+        return np.asarray(self.rigid & ~self._is_felt(steady))
 
     @cached_property
     def scale(self) -> Real:
@@ -191,7 +199,7 @@ class AeroelasticSystem:
 
     def _in_coordinates(self, forces: Complex, inertia: Complex | float) -> Complex:
         """Return ``inertia`` times the mass less the forces, in the coordinates of T."""
-        if self.rigid.any():
+        if self._is_rotated:
             forces = self.rotation.T @ forces @ self.rotation
         return np.asarray(inertia * self.mass - self._scaling * forces)
 

@@ -316,6 +316,8 @@ def flight(
     fold_of: options.FoldOf = None,
     speed: options.CruiseSpeed = None,
     speeds: options.FlightSpeeds = None,
+    tail_aero: options.TailAero = None,
+    trim: options.Trim = None,
     plot: options.Plot = True,
     out: options.Out = None,
     force: options.Force = False,
@@ -326,6 +328,12 @@ def flight(
     from foldwing.cli.flight import FlightRequest, run_flight
 
     request = FlightRequest(
-        model, fold, fold_of, speed=options.number("--speed", speed, "54"), speeds=speeds
+        model,
+        fold,
+        fold_of,
+        speed=options.number("--speed", speed, "54"),
+        speeds=speeds,
+        tail_aero=tail_aero,
+        trim=trim,
     )
     run_flight(request, Output(plot, out, force, json))

@@ -74,9 +74,15 @@ def _flown(request: FlightRequest, text: str) -> _Flown:
         wing = request.aircraft_wing(text)
         folds = request.one_case(wing, "flight")
         return _Flown(airframe_of(wing, folds, request.speed), wing, folds)
-    for option, value in (("--fold", request.fold), ("--fold-of", request.fold_of)):
+    others = {
+        "--fold": request.fold,
+        "--fold-of": request.fold_of,
+        "--trim": request.trim,
+        "--tail-aero": request.tail_aero,
+    }
+    for option, value in others.items():
         if value:
-            limit = "belongs to a wing with hinges, and [flight] describes a rigid aircraft"
+            limit = "belongs to a wing of an aircraft, and [flight] describes a rigid aircraft"
             raise InputError(option, str(value), limit, "Leave it out.")
     model = _at(parse_flight(text, request.model), request.speed)
     return _Flown(model, wing_of(model) if isinstance(model, Airframe) else None, ())

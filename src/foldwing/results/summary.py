@@ -274,7 +274,7 @@ def response(dataset: "xarray.Dataset") -> str:
 
 def warnings(dataset: "xarray.Dataset") -> list[str]:
     """Return what makes results doubtful: modes not resolved, remarks on cases, each once."""
-    parts = [_unresolved(dataset), unstable_motions(dataset)]
+    parts = [_unresolved(dataset), unstable_motions(dataset), level_flight(dataset)]
     if "message" in dataset:
         failed = set(failed_cases(dataset))
         cases: dict[str, list[int]] = {}
@@ -283,6 +283,23 @@ def warnings(dataset: "xarray.Dataset") -> list[str]:
                 cases.setdefault(remark, []).append(case)
         parts += [_remark(dataset, those, remark) for remark, those in cases.items()]
     return [part for part in parts if part]
+
+
+def level_flight(dataset: "xarray.Dataset") -> str:
+    """Return below which airspeed an aircraft needs more lift than there can be, or nothing."""
+    if "slowest_speed" not in dataset:
+        return ""
+    slowest = dataset["slowest_speed"].values
+    slowest = slowest[np.isfinite(slowest)]
+    if not slowest.size:
+        return ""
+    low, high = f"{slowest.min():.3g}", f"{slowest.max():.3g}"
+    span = f"{low} m/s" if low == high else f"{low} to {high} m/s, by fold angles,"
+    largest = float(dataset["slowest_speed"].attrs["lift_coefficient"])
+    text = f"Level flight below {span} needs a lift coefficient above {largest:g}: out of reach."
+    if slowest.max() < float(dataset.attrs.get("speed_limit", np.inf)):
+        return text
+    return f"{text} That is above the airspeeds searched, where the result stands for no flight."
 
 
 def _remark(dataset: "xarray.Dataset", cases: Sequence[int], remark: str) -> str:

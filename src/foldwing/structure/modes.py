@@ -139,14 +139,17 @@ class StructuralModes:
     def without(self, names: Sequence[str]) -> "StructuralModes":
         """Return these modes less the named ones; the others keep their names.
 
+        The rigid motions of an aircraft cannot be left out.
+
         Raises
         ------
         InputError
             When there is no such mode, or none would remain.
         """
-        unknown = [name for name in names if name not in self.names]
+        known = [name for name in self.names if name not in self.rigid_labels]
+        unknown = [name for name in names if name not in known]
         if unknown:
-            limit = f"must be one of: {', '.join(self.names)}"
+            limit = f"must be one of: {', '.join(known)}"
             raise InputError("--drop-mode", unknown[0], limit, "Name a mode of this wing.")
         keep = [column for column, name in enumerate(self.names) if name not in names]
         if not keep:

@@ -50,7 +50,7 @@ def flutter_answer(case: Case) -> Answer:
         "unstable_from_start": None if already < 0 else already,
         "uncertified_modes": list(case.uncertified_modes),
         "status": case.status.meaning,
-        **({"warning": case.warning} if case.warning else {}),
+        **({"warning": case.remarks} if case.remarks else {}),
     }
 
 

@@ -53,6 +53,12 @@ class Case:
         return tuple(self.modes.names[column] for column in self.analysis.unresolved)
 
     @property
+    def remarks(self) -> str:
+        """What makes the result doubtful, and where an aircraft cannot fly level."""
+        level = "" if self.flight is None else self.flight.warning
+        return " ".join(filter(None, (self.warning, level)))
+
+    @property
     def motion_names(self) -> tuple[str, ...]:
         """Motions of an aircraft as a whole; none of a clamped wing."""
         return () if self.flight is None else self.flight.modes.names
@@ -143,7 +149,6 @@ def solve_case(
         speed_range = _resolved_range(system, flight.speed_range, threshold)
         analysis = find_flutter(system, speed_range, threshold)
         analysis = with_motions(analysis, system, flight.modes)
-        warning = " ".join(filter(None, (warning, flight.warning)))
         return Case(folds, modes, system, analysis, warning, flight)
     speed_range = _resolved_range(system, speed_range, threshold)
     return Case(folds, modes, system, find_flutter(system, speed_range, threshold), warning)
