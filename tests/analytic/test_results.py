@@ -139,7 +139,7 @@ def test_csv_holds_the_table_in_full_precision(tmp_path):
         list(lines[0])
         == (
             "case fold_2 fold_3 kind event class speed frequency strength branch mode_name "
-            "mode_confidence threshold"
+            "mode_confidence threshold motion"
         ).split()
     )
     assert float(lines[0]["speed"]) == 0.1 + 0.2

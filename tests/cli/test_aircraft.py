@@ -204,3 +204,61 @@ def test_figures_of_the_whole_aircraft_are_halved(cli, empty_folder):
     half = cli("aircraft", AIRCRAFT, "--json").json
     speeds = [[p["speed"] for p in answer["flutter_points"]] for answer in (whole, half)]
     np.testing.assert_allclose(*speeds, rtol=1e-10)
+
+
+def table(path):
+    import csv
+
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_files_of_an_aircraft_hold_the_dataset(cli, empty_folder):
+    answer = cli("aircraft", AIRCRAFT, "--fold", "30,-60", "--no-plot", "--out", "r")
+    assert all(len(line) <= 80 for line in answer.out.splitlines())
+    folder = empty_folder / "r"
+    dataset = read_dataset(folder / "dataset.nc")
+    speeds, surfaces = dataset["speed"].values, dataset["surface"].values.tolist()
+
+    trim = table(folder / "trim.csv")
+    assert list(trim[0]) == "speed surface lift share lift_coefficient angle_of_attack".split()
+    assert [row["surface"] for row in trim] == surfaces * len(speeds)
+    assert trim[0]["angle_of_attack"] == trim[0]["lift_coefficient"] == ""  # at rest
+    given = np.array([float(row["lift_coefficient"] or "nan") for row in trim])
+    np.testing.assert_array_equal(given, dataset["surface_lift_coefficient"].values.ravel())
+
+    for surface, name in (("segment 3", "trim_angle"), ("tail", "trim_tail_angle")):
+        given = [float(r["angle_of_attack"] or "nan") for r in trim if r["surface"] == surface]
+        np.testing.assert_array_equal(given, dataset[name].values[0])
+
+    motions = table(folder / "motions.csv")
+    assert list(motions[0]) == "speed motion growth frequency damping".split()
+    place = dataset["branch_name"].values.tolist().index("phugoid")
+    growth = dataset["growth"].values[0, :, place]
+    found = {float(r["speed"]): float(r["growth"]) for r in motions if r["motion"] == "phugoid"}
+    known = np.isfinite(growth)
+    assert found == dict(zip(speeds[known].tolist(), growth[known].tolist(), strict=True))
+
+    clamped = table(folder / "clamped_flutter_points.csv")
+    assert [row["event"] for row in clamped] == dataset["clamped_event"].values.tolist()
+    given = [float(row["speed"]) for row in clamped]
+    assert given == dataset["clamped_flutter_speed"].values.tolist()
+    assert {row["motion"] for row in table(folder / "flutter_points.csv")} == {"elastic", "phugoid"}
+
+
+def test_motions_take_one_line_for_each_airspeed(cli):
+    out = cli("aircraft", AIRCRAFT, "--speeds", "10:30:5", "--no-plot").out
+    lines = out.partition("ratio of the motions")[2].partition("Written")[0].strip().splitlines()
+    assert [line.split()[0] for line in lines[-4:]] == ["15", "20", "25", "30"]
+    assert lines[-5].split()[:2] == ["m/s", "deg"]
+
+
+def test_the_trim_of_a_sweep_has_a_line_for_each_case_and_surface(cli, empty_folder):
+    cli("boundary", AIRCRAFT, "--fold3", "-60:60:60", "--no-plot", "--out", "r")
+    rows = table(empty_folder / "r" / "trim.csv")
+    dataset = read_dataset(empty_folder / "r" / "dataset.nc")
+    assert [float(row["fold_3"]) for row in rows[::4]] == [-60.0, 0.0, 60.0]
+    given = np.array([float(row["share"]) for row in rows]).reshape(3, 4)
+    np.testing.assert_array_equal(given, dataset["lift_share"].values)
+    np.testing.assert_allclose(given.sum(axis=1), 1.0)
+    assert not (empty_folder / "r" / "motions.csv").exists()

@@ -2,7 +2,6 @@
 
 from typing import TYPE_CHECKING
 
-import numpy as np
 from rich.console import Console
 
 from foldwing.cli import tables
@@ -13,8 +12,7 @@ from foldwing.model import model_text
 if TYPE_CHECKING:
     import xarray
 
-SHOWN_SPEEDS = 5
-"""Airspeeds at which the table shows the motions of the aircraft."""
+    from foldwing.results.steady_table import Table
 
 
 def run_aircraft(request: Request, output: Output) -> None:
@@ -59,58 +57,38 @@ def show_aircraft(dataset: "xarray.Dataset") -> None:
 
 
 def _show_clamped(console: Console, dataset: "xarray.Dataset") -> None:
+    from foldwing.results.aircraft_table import clamped_rows, points_table
+
     console.print("\nThe same wing with its root clamped")
-    if "clamped_kind" not in dataset:
+    rows = clamped_rows(dataset)
+    if rows is None:
         console.print("could not be computed.")
-        return
-    table = tables.new_table("U m/s", "f Hz", "kind", "event", "class", "mode")
-    names = ("flutter_speed", "flutter_frequency", "kind", "event", "class", "flutter_mode")
-    columns = [dataset[f"clamped_{name}"].values.tolist() for name in names]
-    for speed, frequency, *words in zip(*columns, strict=True):
-        table.add_row(f"{speed:.2f}", f"{frequency:.2f}", *words)
-    console.print(table if table.row_count else "has no flutter points in this range.")
+    elif not rows:
+        console.print("has no flutter points in this range.")
+    else:
+        _print(console, points_table(rows))
 
 
 def _show_trim(console: Console, dataset: "xarray.Dataset") -> None:
-    """Print how the weight is carried, and the angle of attack where the motions are shown."""
-    share, lift = dataset["lift_share"].values[0], dataset["surface_lift"].values[0]
-    coefficient = dataset["surface_lift_coefficient"].values[0]
-    at = shown_speeds(dataset)
-    table = tables.new_table("lift", "share", "N", *(f"CL {_speed(dataset, i)}" for i in at))
-    for index, name in enumerate(dataset["surface"].values.tolist()):
-        values = (f"{coefficient[i, index] + 0.0:.3f}" for i in at)
-        table.add_row(name, f"{share[index] + 0.0:.1%}", f"{lift[index] + 0.0:.4g}", *values)
-    angles = dataset["trim_angle"].values[0]
-    table.add_row("angle, deg", "", "", *(f"{angles[i]:.3f}" for i in at))
-    console.print("\nLevel flight of the half aircraft; CL at the airspeed in m/s")
-    console.print(table)
+    """Print how the weight is carried."""
+    from foldwing.results.aircraft_table import trim_table
+
+    console.print("\nLevel flight of the half aircraft; lift coefficients at airspeeds in m/s")
+    _print(console, trim_table(dataset))
 
 
 def _show_motions(console: Console, dataset: "xarray.Dataset") -> None:
-    from foldwing.results.summary import motion_text
+    """Print angle of attack and motions at the same airspeeds."""
+    from foldwing.results.aircraft_table import motions_found, motions_table
 
-    names = dataset["branch_name"].values.tolist()
-    at = shown_speeds(dataset)
-    found = [name for name in ("phugoid", "short period") if name in names]
-    if not found:
-        console.print("\nNeither phugoid nor short period was found as an oscillation.")
-        return
-    table = tables.new_table("motion", *(_speed(dataset, index) for index in at))
-    for name in found:
-        values = dataset["eigenvalue"].values[0, at, names.index(name)]
-        table.add_row(name, *(motion_text(value) for value in values))
-    console.print("\nMotions of the aircraft as a whole: Hz and damping ratio, by airspeed in m/s")
-    console.print(table)
+    console.print("\nAngle of attack; frequency, growth rate and damping ratio of the motions")
+    _print(console, motions_table(dataset))
+    if not motions_found(dataset):
+        console.print("Neither phugoid nor short period was found as an oscillation.")
 
 
-def _speed(dataset: "xarray.Dataset", index: int) -> str:
-    return f"{float(dataset['speed'][index]):.3g}"
-
-
-def shown_speeds(dataset: "xarray.Dataset") -> list[int]:
-    """Return indices of a few airspeeds of the curves, from the slowest level flight on."""
-    speeds = dataset["speed"].values
-    slowest = min(float(dataset["slowest_speed"][0]), float(speeds[-1]))
-    possible = np.flatnonzero(speeds >= slowest)
-    chosen = np.linspace(0, len(possible) - 1, min(SHOWN_SPEEDS, len(possible)))
-    return [int(possible[index]) for index in np.rint(chosen).astype(int)]
+def _print(console: Console, table: "Table") -> None:
+    printed = tables.new_table(*(head.replace(" ", "\n") for head in table.heads))
+    for row in table.rows:
+        printed.add_row(*row)
+    console.print(printed)

@@ -241,6 +241,7 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
         DATASET_FILE,
         free_name,
         result_folder,
+        write_aircraft_csv,
         write_convergence_csv,
         write_csv,
         write_dataset,
@@ -257,12 +258,14 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
             write_frequencies_csv(dataset, staging / "natural_frequencies.csv")
         if "case" in dataset:
             write_csv(dataset, staging / "flutter_points.csv")
-        if "level_speed" in dataset:
-            write_convergence_csv(dataset, staging)
-        if "lift_slope" in dataset:
-            write_steady_csv(dataset, staging)
-        if "flight_eigenvalue" in dataset:
-            write_flight_csv(dataset, staging)
+        for variable, write in (
+            ("level_speed", write_convergence_csv),
+            ("lift_slope", write_steady_csv),
+            ("flight_eigenvalue", write_flight_csv),
+            ("lift_share", write_aircraft_csv),
+        ):
+            if variable in dataset:
+                write(dataset, staging)
         if output.plot:
             from foldwing.plots import write_pictures, write_report
 

@@ -6,6 +6,8 @@ A picture is described once (`picture`) and drawn by two renderers.
 `frequencies`               natural frequencies against the fold angle, or as bars
 `loci`                      growth and frequency against airspeed; the root locus
 `boundary`                  flutter speed, frequency and strength against the fold angle
+`clamped`                   an aircraft beside its wing with the root clamped
+`trim`, `motions`           who carries the weight; phugoid and short period
 `shapes`                    mode shapes, and the motion at flutter
 `energy`                    the work of the air on segments and modes at flutter
 `loads`                     pressure and circulation at flutter
@@ -16,6 +18,8 @@ A picture is described once (`picture`) and drawn by two renderers.
 `flight_modes`              its eigenvalues, in the plane and against airspeed
 `catalogue`                 which of these a dataset has
 `layout`, `palette`         what they share: labels, ranges, colours by role
+`branches`, `bodies`        lines against airspeed; centres of mass
+`level_flight`              where an aircraft cannot fly level
 `events`                    how flutter points look, the same everywhere
 `static`, `static_scenes`   matplotlib: PNG and SVG
 `interactive`, ..._scenes   plotly: JSON data

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from foldwing.plots.events import color_of, event_marks
-from foldwing.plots.layout import Sweep, angle_label, subtitle, sweep
+from foldwing.plots.layout import Sweep, angle_label, subject, subtitle, sweep
+from foldwing.plots.level_flight import OUT_OF_REACH
 from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import (
     Area,
@@ -24,6 +25,7 @@ from foldwing.plots.picture import (
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
 from foldwing.results.summary import failed_cases, uncertified_cases, unresolved_below
+from foldwing.stability.status import ELASTIC
 
 if TYPE_CHECKING:
     import xarray
@@ -37,7 +39,8 @@ def boundary(dataset: "xarray.Dataset") -> Picture | None:
     """Draw flutter speed, frequency and strength against the fold angle."""
     if dataset.attrs["kind"] != "boundary" or not sweep(dataset).single:
         return None
-    swept, rows, colors = sweep(dataset), flutter_rows(dataset), mode_colors(dataset)
+    swept, colors, every = sweep(dataset), mode_colors(dataset), flutter_rows(dataset)
+    rows = [row for row in every if not row.as_a_whole]
     flutter = [row for row in rows if row.kind == "flutter"]
     with_strength = [row for row in flutter if np.isfinite(row.strength)]
     chosen = ((rows, "speed"), (flutter, "frequency"), (with_strength, "strength"))
@@ -51,19 +54,43 @@ def boundary(dataset: "xarray.Dataset") -> Picture | None:
     top, x = _top(dataset, rows), padded(swept.values, 0.02)
     shaded = _shaded(dataset, swept, rows, colors)
     marks = _case_marks(dataset, swept, rows, top)
-    speed = [*shaded, *_unresolved(dataset, swept), *speed, *marks]
+    reach = _out_of_reach(dataset, swept)
+    speed = [*shaded, *reach, *_unresolved(dataset, swept), *speed, *marks]
     hertz = _frequency_range(dataset, flutter)
     return Picture(
         "boundary",
-        "The airspeeds at which the wing becomes unstable, against fold angle",
+        f"The airspeeds at which the {subject(dataset)} becomes unstable, against fold angle",
         subtitle(dataset, swept.rest) + ". Shaded: unstable airspeeds (darker when the flutter "
-        "ends again). Strength is how fast the instability sets in with airspeed.",
+        "ends again). Strength is how fast the instability sets in with airspeed."
+        + _left_out([row for row in every if row.as_a_whole]),
         [
             Panel(swept.label, "airspeed (m/s)", speed, x, (0.0, top)),
             Panel(swept.label, "flutter frequency (Hz)", frequency, x, hertz, height=0.75),
             Panel(swept.label, "strength (s/m)", strength, x, height=0.75),
         ],
     )
+
+
+def _left_out(apart: Sequence[FlutterRow]) -> str:
+    """Return which rows are not drawn: oscillations of an aircraft as a whole bound nothing."""
+    if not apart:
+        return ""
+    names = " or ".join(sorted({row.motion for row in apart}))
+    return f" Not drawn: where the {names} begins or ceases to grow, which bounds no airspeed."
+
+
+def _out_of_reach(dataset: "xarray.Dataset", swept: Sweep) -> list[Item]:
+    """Return the hatched airspeeds at which an aircraft cannot fly level, and their upper end."""
+    if "slowest_speed" not in dataset:
+        return []
+    x, y = swept.values[swept.order], dataset["slowest_speed"].values[swept.order]
+    known = np.isfinite(y)
+    x, y = x[known], y[known]
+    area = Area(np.append(x, x[::-1]), np.append(y, 0.0 * y), "muted", 0.09, "", hatched=True)
+    line = Line(
+        x, y, "muted", width=1.4, name="slowest level flight", label=f"below: {OUT_OF_REACH}"
+    )
+    return [area, line] if known.any() else []
 
 
 def _unresolved(dataset: "xarray.Dataset", swept: Sweep) -> list[Item]:
@@ -85,7 +112,7 @@ def boundary_map(dataset: "xarray.Dataset") -> Picture | None:
     )
     lowest = np.full((len(y), len(x)), np.nan)
     for row in flutter_rows(dataset):
-        if row.event == "onset":
+        if row.is_critical:
             here = line[row.case], column[row.case]
             lowest[here] = np.nanmin([lowest[here], row.speed])
     return Picture(
@@ -195,7 +222,7 @@ def _shaded(
     closed: dict[str, list[tuple[FlutterRow, float]]] = {}
     open_: dict[str, list[tuple[FlutterRow, float]]] = {}
     for row in rows:
-        if row.event == "onset":
+        if row.event == "onset" or row.motion != ELASTIC:
             end = _end(row, rows)
             (open_ if end is None else closed).setdefault(color_of(row, colors), []).append(
                 (row, limit if end is None else end)
@@ -209,7 +236,13 @@ def _shaded(
 
 
 def _end(row: FlutterRow, rows: Sequence[FlutterRow]) -> float | None:
-    """Return where the instability that begins at ``row`` ends."""
+    """Return where the instability that begins at ``row`` ends.
+
+    The merger of an aircraft's phugoid leaves two growing real roots: the second to stop ends it.
+    """
+    if row.event == "merger":
+        ends = sorted(r.speed for r in rows if _stops(r, row))
+        return ends[1] if len(ends) > 1 else None
     later = [
         other.speed
         for other in rows
@@ -218,6 +251,12 @@ def _end(row: FlutterRow, rows: Sequence[FlutterRow]) -> float | None:
         and other.speed > row.speed
     ]
     return min(later, default=None)
+
+
+def _stops(other: FlutterRow, merger: FlutterRow) -> bool:
+    """Return whether a real root stops to grow at another point, above the merger."""
+    same = (other.case, other.kind, other.event) == (merger.case, "divergence", "recovery")
+    return same and other.speed > merger.speed
 
 
 def _edges(swept: Sweep) -> Array:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from foldwing.plots.boundary import boundary, boundary_map
+from foldwing.plots.clamped import beside_clamped
 from foldwing.plots.convergence import convergence
 from foldwing.plots.determinant import determinant_contours
 from foldwing.plots.energy import work_of_modes, work_of_segments
@@ -12,18 +13,24 @@ from foldwing.plots.flight_modes import flight_against_speed, flight_eigenvalues
 from foldwing.plots.frequencies import natural_frequencies
 from foldwing.plots.loads import flutter_circulation, pressure, pressure_of_modes
 from foldwing.plots.loci import against_speed, root_locus
+from foldwing.plots.motions import motions
 from foldwing.plots.picture import Picture
 from foldwing.plots.response import response
 from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
 from foldwing.plots.steady import circulation, circulation_across, circulation_in_space
+from foldwing.plots.trim import trim, trim_against_speed
 
 if TYPE_CHECKING:
     import xarray
 
 PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
+    beside_clamped,
     boundary,
     boundary_map,
     against_speed,
+    motions,
+    trim,
+    trim_against_speed,
     root_locus,
     determinant_contours,
     natural_frequencies,
@@ -47,7 +54,8 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 
 LEFT_OUT: "Mapping[str, tuple[Callable[[xarray.Dataset], Picture | None], ...]]" = {
-    "flutter": (natural_frequencies,)
+    "flutter": (natural_frequencies,),
+    "aircraft": (natural_frequencies,),
 }
 """By kind of dataset, pictures that would say what others say already."""
 

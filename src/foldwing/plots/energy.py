@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldwing.plots.layout import PANEL_INCHES, subtitle, threshold
+from foldwing.plots.layout import PANEL_INCHES, subject, subtitle, threshold
 from foldwing.plots.picture import Array, Bars, Note, Panel, Picture, Rule
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.summary import fold_text
@@ -29,21 +29,24 @@ def work_of_segments(dataset: "xarray.Dataset") -> Picture | None:
     if "work" not in dataset or dataset.sizes["wing_segment"] < 2:
         return None
     energy, work = dataset["kinetic_energy"].values, dataset["work"].values
-    names = [str(number) for number in dataset["wing_segment"].values]
+    tail = dataset["work"].attrs.get("tail")
+    numbers = dataset["wing_segment"].values.tolist()
+    names = ["tail" if number == tail else str(number) for number in numbers]
     groups = []
     for index, row in onsets(dataset)[:_MOST_ONSETS]:
         share = 100.0 * work[index] / energy[index]
         groups.append((row, [*zip(names, share, strict=True), ("all", float(share.sum()))]))
     balance = (
-        "The whole wing (all) receives what the structure dissipates, which is nothing without "
-        "structural damping."
+        f"The whole {subject(dataset)} (all) receives what the structure dissipates, which is "
+        "nothing without structural damping."
     )
     return _picture(
         dataset,
         "flutter-energy",
-        "Where flutter takes its energy from the air: work on each segment",
-        "The row “all” is the whole wing." if threshold(dataset) else balance,
-        ("segment", groups),
+        "Where flutter takes its energy from the air: work on each segment"
+        + ("" if tail is None else " and the tail"),
+        f"The row “all” is the whole {subject(dataset)}." if threshold(dataset) else balance,
+        ("segment" if tail is None else "segment or tail", groups),
     )
 
 
@@ -68,8 +71,11 @@ def work_of_modes(dataset: "xarray.Dataset") -> Picture | None:
 
 
 def onsets(dataset: "xarray.Dataset") -> list[tuple[int, FlutterRow]]:
-    """Return the flutter onsets with their place along ``flutter_point``, the lowest first."""
-    rows = list(enumerate(flutter_rows(dataset)))
+    """Return the flutter onsets with their place along ``flutter_point``, the lowest first.
+
+    Phugoid and short period of an aircraft do not count: they are no flutter.
+    """
+    rows = [entry for entry in enumerate(flutter_rows(dataset)) if not entry[1].as_a_whole]
     found = [entry for entry in rows if (entry[1].kind, entry[1].event) == ("flutter", "onset")]
     return sorted(found, key=lambda entry: entry[1].speed)
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from foldwing.plots.picture import Marks, Symbol
 from foldwing.results.flutter_table import FlutterRow
+from foldwing.stability.status import ELASTIC
 
 _SYMBOLS: dict[tuple[str, str], Symbol] = {
     ("flutter", "onset"): "circle",
@@ -26,7 +27,15 @@ _WORDS = {
 
 
 def words(row: FlutterRow) -> str:
-    """Return what happens at a flutter point, e.g. ``flutter begins``."""
+    """Return what happens at a flutter point, e.g. ``flutter begins``.
+
+    A motion of an aircraft as a whole that grows is no flutter.
+    """
+    if row.as_a_whole:
+        does = "ceases" if row.event == "recovery" else "begins"
+        return f"{row.motion} {does} to grow"
+    if row.motion != ELASTIC and row.event == "merger":
+        return f"{row.motion} turns into divergence (merger)"
     return _WORDS.get((row.kind, row.event), f"{row.kind} {row.event}")
 
 
@@ -36,7 +45,7 @@ def symbol_of(row: FlutterRow) -> Symbol:
 
 
 def color_of(row: FlutterRow, colors: dict[str, str]) -> str:
-    """Return the colour role: of the mode for flutter, its own for divergence."""
+    """Return the colour role: of the mode for an oscillation, its own for divergence."""
     return colors.get(row.mode_name, "ink") if row.kind == "flutter" else "divergence"
 
 
@@ -44,7 +53,8 @@ def hover_text(row: FlutterRow) -> str:
     """Return all that is known about a point, for hovering."""
     parts = [f"<b>{words(row)}</b>", f"{row.speed:.4g} m/s"]
     if row.kind == "flutter":
-        parts += [f"{row.frequency:.4g} Hz", f"mode {row.mode_name}"]
+        parts += [f"{row.frequency:.4g} Hz"]
+        parts += [f"mode {row.mode_name}"] if row.motion == ELASTIC else []
         parts += [row.classification] if row.classification else []
         if math.isfinite(row.strength):
             parts.append(f"strength {row.strength:.3g} s/m")
@@ -73,7 +83,7 @@ def event_marks(
     groups: dict[tuple[str, str, str, str], list[int]] = {}
     for index, row in enumerate(rows):
         label = words(row)
-        if by_mode and row.kind == "flutter":
+        if by_mode and row.kind == "flutter" and row.motion == ELASTIC:
             label += f", mode {row.mode_name}"
         key = (row.kind, row.event, label, color_of(row, colors))
         groups.setdefault(key, []).append(index)

@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldwing.plots.layout import dash_of, end_labels, subtitle, sweep
-from foldwing.plots.palette import SERIES
+from foldwing.plots.layout import dash_of, end_labels, subject, subtitle, sweep
+from foldwing.plots.palette import SERIES, mode_colors
 from foldwing.plots.picture import (
     Array,
     Bars,
@@ -43,7 +43,7 @@ def _against_fold(dataset: "xarray.Dataset") -> Picture:
     swept = sweep(dataset)
     order, x = swept.order, swept.values[swept.order]
     frequency = dataset["natural_frequency"].values[order]
-    names = dataset["mode_name"].values[order]
+    names, colors = dataset["mode_name"].values[order], mode_colors(dataset)
     measured = _measured(dataset)
     everything = np.concatenate([frequency.ravel(), *(mark.y for mark in measured)])
     y_range, log_y = _range(everything)
@@ -51,16 +51,17 @@ def _against_fold(dataset: "xarray.Dataset") -> Picture:
     items: list[Item] = []
     for mode in range(frequency.shape[1]):
         finite = np.flatnonzero(np.isfinite(frequency[:, mode]))
-        if not finite.size:
+        if not finite.size or not frequency[finite, mode].any():
             continue
-        name, color = str(names[finite[-1], mode]), f"series{mode % SERIES}"
+        name = str(names[finite[-1], mode])
+        color = colors.get(name, f"series{mode % SERIES}")
         items.append(Line(x, frequency[:, mode], color, dash_of(name), 1.8, name=f"mode {name}"))
         ends.append((float(frequency[finite[-1], mode]), name, color))
     labels = end_labels(ends, float(x[-1]), y_range, log_y, height=1.7)
     panel = Panel(
         swept.label,
         "natural frequency (Hz)",
-        [*items, *_doubtful(dataset, x, order), *measured, *labels],
+        [*items, *_doubtful(dataset, x, order), *measured, *labels, *_free(dataset, x, y_range)],
         (float(x[0]), float(x[-1])),
         y_range,
         log_y,
@@ -69,7 +70,7 @@ def _against_fold(dataset: "xarray.Dataset") -> Picture:
     )
     return Picture(
         "natural-frequencies",
-        "Natural frequencies of the wing in still air as it folds",
+        f"Natural frequencies of the {subject(dataset)} in still air as it folds",
         subtitle(dataset, swept.rest) + ". Each line follows one mode of vibration through "
         "crossings; its name stands at its end (B bending, T twisting; dashed lines twist).",
         [panel],
@@ -77,10 +78,23 @@ def _against_fold(dataset: "xarray.Dataset") -> Picture:
     )
 
 
+def _free(dataset: "xarray.Dataset", x: Array, y_range: Range) -> list[Note]:
+    """Name the motions at which nothing pulls: their frequency is zero, out of a log axis."""
+    frequency = dataset["natural_frequency"].values
+    known = np.isfinite(frequency).any(axis=0)
+    zero = known & (np.nan_to_num(frequency) == 0.0).all(axis=0)
+    if not zero.any():
+        return []
+    case = int(np.argmax(np.isfinite(frequency).any(axis=1)))
+    names = ", ".join(str(name) for name in dataset["mode_name"].values[case][zero])
+    text = f"{names}: 0 Hz (nothing pulls back)"
+    return [Note(float(x[0]), y_range[0], text, "muted", "left", "bottom", 5, 5)]
+
+
 def _range(frequency: Array) -> tuple[Range, bool]:
     positive = frequency[np.isfinite(frequency) & (frequency > 0)]
     if positive.size and positive.max() / positive.min() > _LOG_FROM:
-        return (float(positive.min()) * 0.85, float(positive.max()) * 1.15), True
+        return (float(positive.min()) * 0.7, float(positive.max()) * 1.15), True
     return (0.0, padded(frequency)[1]), False
 
 
@@ -134,7 +148,7 @@ def _bars(dataset: "xarray.Dataset") -> Picture:
     split = ", divided by how much the mode bends and how much it twists"
     return Picture(
         "natural-frequencies",
-        "Natural frequencies of the wing in still air",
+        f"Natural frequencies of the {subject(dataset)} in still air",
         f"{caption}{split if 'bending_share' in dataset else ''}.",
         [panel],
     )

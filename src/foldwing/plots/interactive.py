@@ -37,7 +37,13 @@ _GAP, _ROW_GAP = 22, 62
 _COLUMN_GAP = 0.12
 Domain = tuple[tuple[float, float] | None, tuple[float, float]]
 _TOP, _BOTTOM, _LEGEND_ROW = 30, 56, 22
-_DASHES = {"solid": "solid", "dash": "8px,4px", "dot": "2px,3px"}
+_DASHES = {
+    "solid": "solid",
+    "dash": "8px,4px",
+    "dot": "2px,3px",
+    "dashdot": "9px,3px,2px,3px",
+    "longdash": "15px,4px",
+}
 _SYMBOLS = {
     "circle": "circle",
     "circle-open": "circle",
@@ -75,6 +81,8 @@ def figure(picture: Picture) -> Json:
     data: list[Json] = []
     for number, (panel, domain) in enumerate(zip(panels, domains, strict=True), start=1):
         _add_axes(layout, panel, number, domain, last=panel is panels[-1])
+        if panel.title:
+            layout["annotations"].append(_heading(panel.title, "" if number == 1 else str(number)))
         for item in panel.items:
             _add_item(data, layout, item, panel, number)
     return {"data": _legend_once(data), "layout": layout, "frames": []}
@@ -198,6 +206,15 @@ def _note(note: Note, panel: Panel, suffix: str) -> Json:
     return found | ({"textangle": -90, "bgcolor": "@paper/0.75"} if note.upright else {})
 
 
+def _heading(text: str, suffix: str) -> Json:
+    """Return the title of a panel, above its upper left corner."""
+    return {
+        "x": 0, "y": 1, "xref": f"x{suffix} domain", "yref": f"y{suffix} domain",
+        "text": f"<b>{text}</b>", "showarrow": False, "xanchor": "left", "yanchor": "bottom",
+        "yshift": 3, "font": {"color": "@ink", "size": 12.5},
+    }  # fmt: skip
+
+
 def _rule(rule: Rule, suffix: str) -> Json:
     along = {"x0": rule.at, "x1": rule.at, "y0": 0, "y1": 1}
     if rule.along == "y":
@@ -213,6 +230,7 @@ def _rule(rule: Rule, suffix: str) -> Json:
 
 def _line(line: Line, panel: Panel) -> Json:
     name = line.label or line.name
+    title = line.name or line.label
     hover = f"{_value('x', panel.x_label)}<br>{_value('y', panel.y_label)}"
     return {
         "type": "scatter",
@@ -224,7 +242,7 @@ def _line(line: Line, panel: Panel) -> Json:
         "opacity": line.opacity,
         "line": {"color": f"@{line.color}", "width": line.width, "dash": _DASHES[line.dash]},
         **(
-            {"hovertemplate": f"<b>{name}</b><br>{hover}<extra></extra>"}
+            {"hovertemplate": f"<b>{title}</b><br>{hover}<extra></extra>"}
             if name
             else {"hoverinfo": "skip"}
         ),
@@ -288,11 +306,17 @@ def _area(area: Area, panel: Panel) -> Json:
         "y": numbers(area.y),
         "fill": "toself",
         "fillcolor": f"@{area.color}/{area.opacity}",
+        **({"fillpattern": _stripes(area)} if area.hatched else {}),
         "line": {"width": 0},
         "hoverinfo": "skip",
         "name": area.label,
         "showlegend": bool(area.label),
     }
+
+
+def _stripes(area: Area) -> Json:
+    stripes, tint = f"@{area.color}/{min(1.0, 3.0 * area.opacity):g}", f"@{area.color}/0.05"
+    return {"shape": "/", "size": 8, "solidity": 0.15, "fgcolor": stripes, "bgcolor": tint}
 
 
 def _bars(bars: Bars, panel: Panel) -> Json:

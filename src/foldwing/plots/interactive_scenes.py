@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from foldwing.plots.interactive_base import Json, base_layout, color_scale, numbers
-from foldwing.plots.picture import Picture, Scene, Surface, Tag, Thread
+from foldwing.plots.picture import Dot, Picture, Scene, Surface, Tag, Thread
 
 _HEIGHT = 300
 _FILM_HEIGHT = 460
@@ -44,9 +44,25 @@ def scenes_figure(picture: Picture) -> Json:
             shown = next(n for n, item in enumerate(scene.items) if item is scene.graded)
             traces[shown] |= {"showscale": True, "colorbar": _bar(scene, domain)}
         data += traces
+    if any(trace.get("showlegend") for trace in data):
+        layout |= {"showlegend": True, "legend": _legend()}
+        _name_once(data)
     if picture.frames:
         layout["updatemenus"] = [_buttons(len(picture.frames))]
     return {"data": data, "layout": layout, "frames": _frames(picture)}
+
+
+def _legend() -> Json:
+    return {"orientation": "h", "x": 0, "y": 0, "yanchor": "bottom", "itemsizing": "constant"}
+
+
+def _name_once(data: list[Json]) -> None:
+    """Leave each name in the legend once."""
+    seen: set[str] = set()
+    for trace in data:
+        if trace.get("showlegend"):
+            trace["showlegend"] = trace["name"] not in seen
+            seen.add(trace["name"])
 
 
 def _domain(number: int, columns: int, rows: int) -> tuple[tuple[float, float], ...]:
@@ -83,7 +99,7 @@ def _eye(view: tuple[float, float]) -> Json:
 def _room(scene: Scene) -> list[tuple[float, float]]:
     """Return the box with room for the arrows and texts outside it."""
     points = [item.points for item in scene.items if isinstance(item, Thread)]
-    points += [item.point[None] for item in scene.items if isinstance(item, Tag)]
+    points += [item.point[None] for item in scene.items if isinstance(item, Tag | Dot)]
     corners = np.concatenate([np.array(scene.box).T, *points])
     return [(float(low), float(high)) for low, high in zip(*_extent(corners), strict=True)]
 
@@ -209,7 +225,29 @@ def _tag(tag: Tag) -> Json:
     }
 
 
-_TRACES: Mapping[type, Callable[[Any], Json]] = {Surface: _surface, Thread: _thread, Tag: _tag}
+def _dot(dot: Dot) -> Json:
+    return {
+        "type": "scatter3d",
+        "mode": "markers",
+        **{letter: [float(value)] for letter, value in zip("xyz", dot.point, strict=True)},
+        "name": dot.label,
+        "showlegend": bool(dot.label),
+        "legendgroup": dot.label,
+        "hovertemplate": f"{dot.label}<extra></extra>",
+        "marker": {
+            "symbol": "circle" if dot.filled else "circle-open",
+            "size": dot.size,
+            "color": f"@{dot.color}",
+        },
+    }
+
+
+_TRACES: Mapping[type, Callable[[Any], Json]] = {
+    Surface: _surface,
+    Thread: _thread,
+    Tag: _tag,
+    Dot: _dot,
+}
 
 
 def _frames(picture: Picture) -> list[Json]:

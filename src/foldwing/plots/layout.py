@@ -82,9 +82,13 @@ def _in_words(dataset: "xarray.Dataset", name: str) -> str:
 
 
 def dash_of(name: str) -> Dash:
-    """Return a dash by family, so that colour is not the only difference: T twisting, D real."""
+    """Return a dash by family, so that colour is not the only difference: T twisting, D real.
+
+    Phugoid and short period of an aircraft have their own.
+    """
+    motions: Mapping[str, Dash] = {"phugoid": "dashdot", "short period": "longdash"}
     families: Mapping[str, Dash] = {"T": "dash", "D": "dot"}
-    return families.get(name[:1], "solid")
+    return motions.get(name) or families.get(name[:1], "solid")
 
 
 def end_labels(
@@ -160,6 +164,12 @@ def subtitle(dataset: "xarray.Dataset", *more: str) -> str:
     """Return the model, the method and the damping, for the line below a title."""
     parts = (dataset.attrs["title"], dataset.attrs["method"], *_damping(dataset), *more)
     return " · ".join(filter(None, parts))
+
+
+def subject(dataset: "xarray.Dataset") -> str:
+    """Return what the dataset is about: ``wing`` or ``aircraft``."""
+    bodies = dataset["body"].values.tolist() if "body" in dataset.coords else []
+    return "aircraft" if "slowest_speed" in dataset or "aircraft" in bodies else "wing"
 
 
 def threshold(dataset: "xarray.Dataset") -> float:

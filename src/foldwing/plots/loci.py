@@ -5,12 +5,28 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldwing.plots.events import color_of, event_marks, words
-from foldwing.plots.layout import dash_of, end_labels, focused, subtitle, threshold, upright_labels
-from foldwing.plots.palette import mode_colors
+from foldwing.plots.branches import (
+    Branches,
+    branches_of,
+    frequency_marks,
+    highest_shown,
+    lines,
+    neutral_marks,
+    rule_labels,
+    rules,
+    unstable_above,
+)
+from foldwing.plots.events import event_marks
+from foldwing.plots.layout import dash_of, focused, subject, subtitle, threshold
+from foldwing.plots.level_flight import (
+    neutral_words,
+    out_of_reach,
+    reach_words,
+    slowest,
+    without_neutral,
+)
 from foldwing.plots.picture import (
     Area,
-    Array,
     Graded,
     Item,
     Line,
@@ -20,16 +36,14 @@ from foldwing.plots.picture import (
     Picture,
     Range,
     Rule,
-    padded,
     spread,
 )
-from foldwing.results.flutter_table import FlutterRow, flutter_rows
+from foldwing.results.aircraft_table import MOTIONS
 from foldwing.results.summary import fold_text, unresolved_below
 
 if TYPE_CHECKING:
     import xarray
 
-_PLOT_INCHES = 6.3
 _PANEL_SHARE = 0.035
 """Distance of names in the root locus as a share of its height."""
 
@@ -38,41 +52,41 @@ def against_speed(dataset: "xarray.Dataset") -> Picture | None:
     """Draw growth rate and frequency of every branch against airspeed."""
     if not _has_loci(dataset):
         return None
-    speed = dataset["speed"].values
-    limits = _speed_range(speed)
-    rows = _rows_shown(dataset)
-    colors = mode_colors(dataset)
-    growth, frequency = _visible(dataset, "growth"), _visible(dataset, "frequency")
-    growth_range = focused(growth, 3.0)
-    top = _highest_shown(frequency, rows)
-    x = [row.speed for row in rows]
+    dataset = without_neutral(dataset)
+    shown = branches_of(dataset)
+    limits, top = shown.limits, highest_shown(shown)
+    growth_range, hertz = focused(shown.growth, 3.0), (-0.03 * top, top)
     resolved = _resolved_from(dataset, limits)
     upper = [
-        *_unstable_above(limits, growth_range),
-        *_branches(dataset, growth, growth_range, "growth"),
-        *_rules(rows, colors),
+        *unstable_above(limits, growth_range),
+        *out_of_reach(dataset, limits, growth_range),
+        *lines(shown, shown.growth, growth_range, "growth"),
+        *rules(shown),
         *resolved,
-        *_threshold_marks(rows, colors),
-        *_rule_labels(rows, colors, limits, growth_range[0]),
+        *neutral_marks(shown),
+        *rule_labels(shown, growth_range[0]),
     ]
     lower = [
-        *_branches(dataset, frequency, (-0.03 * top, top), "frequency"),
-        *_rules(rows, colors),
+        *out_of_reach(dataset, limits, hertz),
+        *lines(shown, shown.frequency, hertz, "frequency"),
+        *rules(shown),
         *resolved,
-        *event_marks(rows, x, [row.frequency for row in rows], colors),
+        *frequency_marks(shown),
     ]
-    label = "airspeed (m/s)"
+    label, what = "airspeed (m/s)", subject(dataset)
     return Picture(
         "growth-and-frequency",
-        "How the motions of the wing grow or decay as the airspeed rises",
+        f"How the motions of the {what} grow or decay as the airspeed rises",
         subtitle(dataset, fold_text(dataset, 0)) + ". Above zero (shaded) a motion grows by "
-        f"itself: the wing is unstable. Vertical lines mark the exact speeds {_where(dataset)}."
-        + (" Dotted: from here on the lattice resolves all modes." if resolved else ""),
+        f"itself: the {what} is unstable. Vertical lines mark the exact speeds {_where(dataset)}."
+        + (" Dotted: from here on the lattice resolves all modes." if resolved else "")
+        + reach_words(dataset)
+        + neutral_words(dataset),
         [
             Panel(label, "growth rate (1/s)", upper, limits, growth_range, height=1.1),
-            Panel(label, "frequency (Hz)", lower, limits, (-0.03 * top, top), height=1.1),
+            Panel(label, "frequency (Hz)", lower, limits, hertz, height=1.1),
         ],
-        right_margin=0.6,
+        right_margin=0.6 if what == "wing" else 1.05,
     )
 
 
@@ -93,17 +107,17 @@ def root_locus(dataset: "xarray.Dataset") -> Picture | None:
     """Draw the paths of the eigenvalues in the plane of growth rate and frequency."""
     if not _has_loci(dataset):
         return None
-    growth, frequency = _visible(dataset, "growth"), _visible(dataset, "frequency")
-    x_range = focused(growth, 5.0)
-    top = _highest_shown(frequency, _rows_shown(dataset))
+    dataset = without_neutral(dataset)
+    shown = branches_of(dataset)
+    x_range, top = focused(shown.growth, 5.0), highest_shown(shown)
     y_range = (-0.04 * top, top)
     tint = Area(
         np.array([0.0, x_range[1], x_range[1], 0.0]), np.repeat(y_range, 2), "unstable", 0.1
     )
     items: list[Item] = [tint, Rule(0.0, "x", "ink", width=1.2)]
-    items += _paths(dataset, growth, frequency)
-    items += _path_ends(dataset, (growth, frequency), x_range, top)
-    items += _crossing_marks(dataset)
+    items += _paths(shown)
+    items += _path_ends(shown, x_range, top)
+    items += _crossing_marks(shown)
     items += [
         Note(x_range[1], top, "unstable", "unstable", "right", "top", -4, -4, bold=True),
         Note(0.0, top, "stable", "muted", "right", "top", -5, -4, bold=True),
@@ -112,8 +126,22 @@ def root_locus(dataset: "xarray.Dataset") -> Picture | None:
         "root-locus",
         "Flutter begins where a path crosses to the right of zero growth",
         subtitle(dataset, fold_text(dataset, 0)) + ". Each path is one motion (an eigenvalue) "
-        "from the lowest airspeed (blue) to the highest (orange).",
+        "from the lowest airspeed (blue) to the highest (orange)."
+        + _locus_words(dataset)
+        + neutral_words(dataset),
         [Panel("growth rate (1/s)", "frequency (Hz)", items, x_range, y_range, height=1.8)],
+    )
+
+
+def _locus_words(dataset: "xarray.Dataset") -> str:
+    """Return what the paths of an aircraft mean below its slowest level flight."""
+    end = slowest(dataset)
+    if not end > float(dataset["speed"][0]):
+        return ""
+    largest = float(dataset["slowest_speed"].attrs["lift_coefficient"])
+    return (
+        f" Below {end:.3g} m/s, out of reach of level flight, paths are with the lift of a lift "
+        f"coefficient of {largest:g}."
     )
 
 
@@ -121,114 +149,34 @@ def _has_loci(dataset: "xarray.Dataset") -> bool:
     return "growth" in dataset and bool(np.isfinite(dataset["growth"].values).any())
 
 
-def _visible(dataset: "xarray.Dataset", name: str) -> Array:
-    """Values of the first case, shape (speed, mode)."""
-    return np.asarray(dataset[name].values[0], float)
-
-
-def _speed_range(speed: Array) -> Range:
-    return (float(speed[0]), float(speed[-1])) if len(speed) > 1 else padded(speed)
-
-
-def _rows_shown(dataset: "xarray.Dataset") -> list[FlutterRow]:
-    """Return the flutter points within the airspeeds of the curves."""
-    low, high = _speed_range(dataset["speed"].values)
-    return [row for row in flutter_rows(dataset) if low <= row.speed <= high]
-
-
-def _highest_shown(frequency: Array, rows: list[FlutterRow]) -> float:
-    """Return the frequency up to which branches are shown: those that flutter, and at least four.
-
-    The highest modes, many times faster, would press the others flat.
-    """
-    finite = frequency[np.isfinite(frequency)]
-    if not finite.size:
-        return 1.0
-    rows_with_values = np.flatnonzero(np.isfinite(frequency).any(axis=1))
-    first = np.sort(frequency[rows_with_values[0]])
-    fourth = float(first[min(3, int(np.isfinite(first).sum()) - 1)])
-    flutter = max((row.frequency for row in rows), default=0.0)
-    return min(1.05 * float(finite.max()), max(1.25 * fourth, 1.6 * flutter)) or 1.0
-
-
-def _names(dataset: "xarray.Dataset") -> list[str]:
-    return [str(name) for name in dataset["branch_name"].values]
-
-
-def _unstable_above(limits: Range, growth_range: Range) -> list[Item]:
-    x = np.array([limits[0], limits[1], limits[1], limits[0]])
-    y = np.array([0.0, 0.0, growth_range[1], growth_range[1]])
-    return [
-        Area(x, y, "unstable", 0.1),
-        Rule(0.0, "y", "ink", width=1.2),
-        Note(limits[0], growth_range[1], "unstable", "unstable", "left", "top", 5, -4, bold=True),
-        Note(limits[0], growth_range[0], "stable", "muted", "left", "bottom", 5, 4, bold=True),
-    ]
-
-
-def _branches(
-    dataset: "xarray.Dataset", values: Array, y_range: Range, quantity: str
-) -> list[Item]:
-    speed, colors = dataset["speed"].values, mode_colors(dataset)
+def _paths(shown: Branches) -> list[Item]:
+    """Return every path coloured by airspeed; those of an aircraft as a whole also by a line."""
+    speed, limits = shown.speed, shown.limits
     items: list[Item] = []
-    ends = []
-    for branch, name in enumerate(_names(dataset)):
-        y = values[:, branch]
-        finite = np.flatnonzero(np.isfinite(y))
-        if not finite.size:
+    for branch, name in enumerate(shown.names):
+        x, y = shown.growth[:, branch], shown.frequency[:, branch]
+        if not np.isfinite(x).any():
             continue
-        color = colors[name]
-        items.append(Line(speed, y, color, dash_of(name), 1.8, name=f"{quantity} of {name}"))
-        if finite[-1] == len(speed) - 1:
-            ends.append((float(y[-1]), name, color))
-    return items + list(end_labels(ends, float(speed[-1]), y_range, height=1.1))
+        items.append(Graded(x, y, speed, limits, "airspeed (m/s)", name))
+        if name in MOTIONS:
+            label = f"{name} (thin line)"
+            items.append(Line(x, y, "ink", dash_of(name), 1.0, name=name, label=label))
+    return items
 
 
-def _rules(rows: list[FlutterRow], colors: dict[str, str]) -> list[Item]:
-    return [Rule(row.speed, "x", color_of(row, colors), "dash", 0.9) for row in rows]
-
-
-def _threshold_marks(rows: list[FlutterRow], colors: dict[str, str]) -> list[Marks]:
-    """Return marks at zero growth, for the points that are reported there."""
-    neutral = [row for row in rows if row.threshold == 0 and row.event != "merger"]
-    return event_marks(neutral, [row.speed for row in neutral], [0.0] * len(neutral), colors)
-
-
-def _rule_labels(
-    rows: list[FlutterRow], colors: dict[str, str], limits: Range, y: float
-) -> list[Note]:
-    events = [
-        (row.speed, f"{words(row).partition(' (')[0]} {row.speed:.3g} m/s", color_of(row, colors))
-        for row in rows
-    ]
-    return upright_labels(events, y, limits, _PLOT_INCHES)
-
-
-def _paths(dataset: "xarray.Dataset", growth: Array, frequency: Array) -> list[Item]:
-    speed = dataset["speed"].values
-    limits = _speed_range(speed)
-    return [
-        Graded(growth[:, branch], frequency[:, branch], speed, limits, "airspeed (m/s)", name)
-        for branch, name in enumerate(_names(dataset))
-        if np.isfinite(growth[:, branch]).any()
-    ]
-
-
-def _path_ends(
-    dataset: "xarray.Dataset", paths: tuple[Array, Array], x_range: Range, highest: float
-) -> list[Item]:
+def _path_ends(shown: Branches, x_range: Range, highest: float) -> list[Item]:
     """Mark the first and the last point of each path and name it where it comes into view."""
-    growth, frequency = paths
+    growth, frequency = shown.growth, shown.frequency
     notes: list[Note] = []
     ends: tuple[list[tuple[float, float]], ...] = ([], [])
-    for branch, name in enumerate(_names(dataset)):
+    for branch, name in enumerate(shown.names):
         finite = np.flatnonzero(np.isfinite(growth[:, branch]))
         inside = (growth[:, branch] >= x_range[0]) & (growth[:, branch] <= x_range[1])
         inside &= frequency[:, branch] <= highest
-        shown = np.flatnonzero(inside)
-        if not shown.size:
+        seen = np.flatnonzero(inside)
+        if not seen.size:
             continue
-        x, y = float(growth[shown[0], branch]), float(frequency[shown[0], branch])
+        x, y = float(growth[seen[0], branch]), float(frequency[seen[0], branch])
         notes.append(Note(x, y, name, "ink", dx=7, dy=7, bold=True))
         for index, found in ((finite[0], ends[0]), (finite[-1], ends[1])):
             if inside[index]:
@@ -246,7 +194,7 @@ def _apart(notes: list[Note], gap: float) -> list[Note]:
     return [replace(note, y=float(at)) for note, at in zip(notes, y, strict=True)]
 
 
-def _crossing_marks(dataset: "xarray.Dataset") -> list[Marks]:
-    rows = [row for row in _rows_shown(dataset) if row.threshold == 0 and row.event != "merger"]
+def _crossing_marks(shown: Branches) -> list[Marks]:
+    rows = [row for row in shown.rows if row.threshold == 0 and row.event != "merger"]
     zero = [0.0] * len(rows)
-    return event_marks(rows, zero, [row.frequency for row in rows], mode_colors(dataset))
+    return event_marks(rows, zero, [row.frequency for row in rows], shown.colors)

@@ -78,6 +78,12 @@ SCALES: Mapping[str, tuple[str, ...]] = {
 """Roles of the colours of a scale from low to high; that of an angle ends as it starts."""
 
 
+_RIGID = {
+    "x": "muted", "z": "muted", "pitch": "muted", "phugoid": "ink", "short period": "muted",
+}  # fmt: skip
+"""Motions of an aircraft as a whole, so that its elastic modes have the colours of its wing's."""
+
+
 def mode_colors(dataset: "xarray.Dataset") -> dict[str, str]:
     """Return a colour role for each name of a mode, the same in all pictures of a dataset."""
     names: list[str] = []
@@ -85,8 +91,11 @@ def mode_colors(dataset: "xarray.Dataset") -> dict[str, str]:
         names += dataset["mode_name"].values[0].tolist()
     if "branch_name" in dataset:
         names += dataset["branch_name"].values.tolist()
+    if "clamped_branch_name" in dataset:
+        names += dataset["clamped_branch_name"].values.tolist()
     if "flutter_mode_name" in dataset:
         names += sorted(set(dataset["flutter_mode_name"].values.tolist()))
-    flutter = [name for name in dict.fromkeys(names) if not name.startswith("D")]
+    apart = {name: "divergence" for name in names if name.startswith("D")} | _RIGID
+    flutter = [name for name in dict.fromkeys(names) if name not in apart]
     colors = {name: f"series{index % SERIES}" for index, name in enumerate(flutter)}
-    return colors | {name: "divergence" for name in names if name.startswith("D")}
+    return colors | apart

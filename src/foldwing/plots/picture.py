@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
-Dash = Literal["solid", "dash", "dot"]
+Dash = Literal["solid", "dash", "dot", "dashdot", "longdash"]
 Symbol = Literal[
     "circle", "circle-open", "square", "square-open", "diamond", "x", "star", "triangle", "ring"
 ]
@@ -62,13 +62,14 @@ class Marks:
 
 @dataclass(frozen=True)
 class Area:
-    """A filled polygon; nan separates several."""
+    """A filled polygon; nan separates several. ``hatched`` ones have stripes of their colour."""
 
     x: Array
     y: Array
     color: str
     opacity: float
     label: str = ""
+    hatched: bool = False
 
 
 @dataclass(frozen=True)
@@ -137,7 +138,10 @@ Item = Line | Graded | Marks | Area | Rule | Bars | Note | ZeroLine | Cells
 
 @dataclass(frozen=True)
 class Panel:
-    """Axes in the plane with their items, drawn in order; ``equal``: one scale along both."""
+    """Axes in the plane with their items, drawn in order; ``equal``: one scale along both.
+
+    The ``title`` stands above the panel.
+    """
 
     x_label: str
     y_label: str
@@ -188,12 +192,26 @@ class Thread:
 
 
 @dataclass(frozen=True)
+class Dot:
+    """A mark at a point in space; ``label`` appears in the legend."""
+
+    point: Array
+    color: str
+    filled: bool
+    label: str = ""
+    size: float = 6.0
+
+
+@dataclass(frozen=True)
 class Tag:
     """A text at a point in space."""
 
     point: Array
     text: str
     color: str = "muted"
+
+
+SceneItem = Surface | Thread | Tag | Dot
 
 
 @dataclass(frozen=True)
@@ -205,7 +223,7 @@ class Scene:
     """
 
     title: str
-    items: Sequence[Surface | Thread | Tag]
+    items: Sequence[SceneItem]
     box: tuple[Range, Range, Range]
     value_label: str = ""
     ticks: Sequence[float] = ()

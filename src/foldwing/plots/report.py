@@ -10,6 +10,12 @@ from foldwing.plots.catalogue import films, pictures
 from foldwing.plots.events import words
 from foldwing.plots.interactive import figure
 from foldwing.plots.palette import THEMES
+from foldwing.results.aircraft_table import (
+    clamped_rows,
+    motions_table,
+    points_table,
+    trim_table,
+)
 from foldwing.results.flight_table import (
     derivatives_table,
     models_table,
@@ -21,6 +27,7 @@ from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
 from foldwing.results.steady_table import legend, loads_table, segments_table
 from foldwing.results.summary import answer, certificate, degrees, fold_text, warnings
+from foldwing.stability.status import ELASTIC
 
 if TYPE_CHECKING:
     import xarray
@@ -159,12 +166,19 @@ def _table(dataset: "xarray.Dataset") -> list[str]:
         return _loads(dataset)
     if dataset.attrs["kind"] == "flight":
         return _flight(dataset)
+    return [*_points(dataset), *_aircraft(dataset)]
+
+
+def _points(dataset: "xarray.Dataset") -> list[str]:
+    """Return the table of flutter points."""
     rows = flutter_rows(dataset)
     if not rows:
         return ["<h2>Flutter points</h2>", "<p>None were found.</p>"]
     hinges = [name.removeprefix("fold_") for name in fold_angle_names(dataset)]
-    heads = [*(f"hinge {hinge}" for hinge in hinges), *_COLUMNS]
-    table = _html(heads, [_cells(row) for row in rows])
+    motions = any(row.motion != ELASTIC for row in rows)
+    heads = [*(f"hinge {hinge}" for hinge in hinges), *_COLUMNS, *["motion"][: int(motions)]]
+    lines = [(*_cells(row), *[row.motion][: int(motions)]) for row in rows]
+    table = _html(heads, lines)
     note = f" ({len(rows)} rows)" if len(rows) > _LONG_TABLE else ""
     return [f"<h2>Flutter points{note}</h2>", f'<div class="scroll">{table}</div>']
 
@@ -185,6 +199,25 @@ def _loads(dataset: "xarray.Dataset") -> list[str]:
         f"<h2>On each segment{f', {first}' if first else ''}</h2>",
         f'<div class="scroll">{_html(*segments_table(dataset))}</div>',
     ]
+
+
+def _aircraft(dataset: "xarray.Dataset") -> list[str]:
+    """Return the clamped wing, trim and motions of an aircraft; nothing of other datasets."""
+    if "trim_angle" not in dataset:
+        return []
+    fixed = clamped_rows(dataset)
+    heading = "<h2>The same wing with its root clamped</h2>"
+    parts = [heading, "<p>It could not be computed.</p>"]
+    if fixed is not None:
+        table = _html(*points_table(fixed))
+        parts[1] = table if fixed else "<p>No flutter points were found.</p>"
+    tables = (
+        ("Level flight of the half aircraft; lift coefficients by airspeed", trim_table),
+        ("Motions of the aircraft as a whole; ζ is the damping ratio", motions_table),
+    )
+    for title, make in tables:
+        parts += [f"<h2>{title}</h2>", f'<div class="scroll">{_html(*make(dataset))}</div>']
+    return parts
 
 
 def _flight(dataset: "xarray.Dataset") -> list[str]:

@@ -1,12 +1,13 @@
 """The folded wing in space: shapes of its modes, and its motion at flutter."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from foldwing.plots.layout import subtitle
-from foldwing.plots.picture import Array, Picture, Range, Scene, Surface, Tag, Thread
+from foldwing.plots import bodies
+from foldwing.plots.layout import subject, subtitle
+from foldwing.plots.picture import Array, Picture, Range, Scene, SceneItem, Surface, Tag, Thread
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.summary import fold_text
 
@@ -16,42 +17,65 @@ if TYPE_CHECKING:
 _MOST_MODES = 6
 _AMPLITUDE = 0.16
 """Largest displacement drawn, as a share of the size of the wing."""
+_NOTHING = 1e-9
+"""Share of a motion that is round-off."""
 _PHASES = 6
 _FRAMES = 24
 _PER_SEGMENT = tuple[Array, ...]
 
 
 def mode_shapes(dataset: "xarray.Dataset") -> Picture | None:
-    """Draw the first six mode shapes, of the case in the middle of a sweep."""
+    """Draw the first six mode shapes, of the case in the middle of a sweep.
+
+    Those of an aircraft come after its rigid motions. Circles are the centres of mass.
+    """
     if "mode_shape" not in dataset or "position" not in dataset:
         return None
     case = _shown_case(dataset)
     if case is None:
         return None
     where = fold_text(dataset, case)
-    rest = sheets(dataset, dataset["position"].values[case])
     frequency = dataset["natural_frequency"].values[case]
-    names = dataset["mode_name"].values[case]
-    shapes = dataset["mode_shape"].values[case]
-    modes = np.argsort(frequency)[: np.isfinite(frequency).sum()][:_MOST_MODES]
-    moved = [_scaled(sheets(dataset, shapes[mode]), rest) for mode in modes]
-    box = box_around(rest, [_added(rest, motion) for motion in moved])
+    known = np.argsort(frequency, kind="stable")[: np.isfinite(frequency).sum()]
+    modes = known[: _MOST_MODES + int((frequency == 0.0).sum())]
+    views = [_mode_view(dataset, case, int(mode)) for mode in modes]
+    rest = sheets(dataset, dataset["position"].values[case])
+    box = box_around(rest, [moved for _, moved, _ in views])
     scenes = [
-        Scene(
-            f"{names[mode]}: {frequency[mode]:.3g} Hz",
-            [*_at_rest(rest), *_deformed(rest, motion), *signs(rest)],
-            box,
-        )
-        for mode, motion in zip(modes, moved, strict=True)
+        Scene(title, [*_at_rest(rest), *items, *signs(rest)], box) for title, _, items in views
     ]
+    what, fixed = subject(dataset), "fixed " if subject(dataset) == "wing" else ""
     return Picture(
         "mode-shapes",
-        f"The shapes in which the wing vibrates in still air{f', at {where}' if where else ''}",
+        f"The shapes in which the {what} vibrates in still air{f', at {where}' if where else ''}",
         subtitle(dataset) + ". Grey: at rest. Coloured: at the extreme of the motion (red up, "
-        "blue down, across the sheet). Its size is arbitrary. The thick line is the fixed root.",
+        f"blue down, across the sheet). Its size is arbitrary. The thick line is the {fixed}root"
+        f"{'' if fixed else ' at rest; at 0 Hz nothing pulls back'}.{bodies.words(dataset)}",
         scenes,
         columns=3 if len(scenes) > 2 else len(scenes),
     )
+
+
+def _mode_view(
+    dataset: "xarray.Dataset", case: int, mode: int
+) -> tuple[str, _PER_SEGMENT, list[SceneItem]]:
+    """Return the title of a mode, the moved wing, and what is drawn of its motion."""
+    rest = sheets(dataset, dataset["position"].values[case])
+    shape = sheets(dataset, dataset["mode_shape"].values[case, mode])
+    name = str(dataset["mode_name"].values[case, mode])
+    frequency = float(dataset["natural_frequency"].values[case, mode])
+    title = f"{name}: {frequency:.3g} Hz"
+    if not bodies.has_bodies(dataset):
+        motion = _scaled(shape, rest)
+        return title, _added(rest, motion), [*_deformed(rest, motion)]
+    centres = dataset["mass_centre"].values[case]
+    moving = dataset["mass_centre_shape"].values[case, mode]
+    factor = _factor(shape, rest, float(np.abs(moving).max()))
+    motion = tuple(grid * factor for grid in shape)
+    moved = _added(rest, motion)
+    roots = rest[0][0].mean(axis=0), moved[0][0].mean(axis=0)
+    marks = bodies.mass_centres(dataset, centres, centres + factor * moving, roots)
+    return title, moved, [*_deformed(rest, motion), *marks]
 
 
 def flutter_phases(dataset: "xarray.Dataset") -> Picture | None:
@@ -111,7 +135,8 @@ def flutter_motions(dataset: "xarray.Dataset") -> list[Motion]:
     shapes, found = dataset["flutter_shape"].values, []
     for index, row in enumerate(flutter_rows(dataset)):
         usable = np.isfinite(shapes[index]).all() and np.abs(shapes[index]).max() > 0
-        if (row.kind, row.event) == ("flutter", "onset") and usable:
+        begins = (row.kind, row.event) == ("flutter", "onset") and not row.as_a_whole
+        if begins and usable:
             rest = sheets(dataset, dataset["position"].values[row.case])
             motion = _scaled(sheets(dataset, shapes[index]), rest)
             turned = [_added(rest, _at_phase(motion, step / _FRAMES)) for step in range(_FRAMES)]
@@ -154,15 +179,24 @@ def _size(rest: _PER_SEGMENT) -> float:
 
 
 def _scaled(motion: _PER_SEGMENT, rest: _PER_SEGMENT) -> _PER_SEGMENT:
-    """Scale a motion to be seen well; its largest normal displacement is up."""
+    """Scale a motion to be seen well; its largest displacement across the sheet is up."""
+    factor = _factor(motion, rest)
+    return tuple(grid * factor for grid in motion)
+
+
+def _factor(motion: _PER_SEGMENT, rest: _PER_SEGMENT, beside: float = 0.0) -> Any:
+    """Return what scales and turns a motion; ``beside`` is the largest of what moves with it."""
     normal = [_normal_part(m, r) for m, r in zip(motion, rest, strict=True)]
     flat = np.concatenate([part.ravel() for part in normal])
     extreme = flat[np.argmax(np.abs(flat))]
-    largest = max(float(np.abs(grid).max()) for grid in motion)
+    largest = max(beside, *(float(np.abs(grid).max()) for grid in motion))
     if largest == 0:
-        return motion
+        return 1.0
+    if abs(extreme) < _NOTHING * largest:  # a motion in the plane of the wing is drawn aft
+        aft = np.concatenate([grid[..., 0].ravel() for grid in motion])
+        extreme = aft[np.argmax(np.abs(aft))]
     turn = np.conj(extreme) / abs(extreme) if extreme != 0 else 1.0
-    return tuple(grid * (turn * _AMPLITUDE * _size(rest) / largest) for grid in motion)
+    return turn * _AMPLITUDE * _size(rest) / largest
 
 
 def _normal_part(motion: Array, rest: Array) -> Array:

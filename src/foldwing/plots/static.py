@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.colors import Normalize
+from matplotlib.colors import Normalize, to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -41,10 +41,18 @@ from foldwing.plots.static_base import (
 from foldwing.plots.static_scenes import draw_scenes
 
 _LEFT, _BOTTOM, _GAP, _ROW_GAP = 0.88, 0.52, 0.18, 0.62
-_LEGEND_POINTS, _POINTS, _HANDLE = 8.5, 72.0, 0.5
+_LEGEND_POINTS, _POINTS, _HANDLE = 8.5, 72.0, 0.62
 """Size of the text of a legend, points of an inch, and what a column needs besides its text."""
 Box = tuple[float, float, float, float]
-_DASHES: Mapping[str, Any] = {"solid": "-", "dash": (0, (5, 2)), "dot": (0, (1.2, 1.6))}
+_DASHES: Mapping[str, Any] = {
+    "solid": "-",
+    "dash": (0, (5, 2)),
+    "dot": (0, (1.2, 1.6)),
+    "dashdot": (0, (6, 1.6, 1.2, 1.6)),
+    "longdash": (0, (10, 2.5)),
+}
+_TITLE = 0.24
+"""Height of the title of a panel in inches."""
 _MARKERS = {
     "circle": "o",
     "circle-open": "o",
@@ -95,6 +103,7 @@ def _boxes(panels: list[Panel], picture: Picture) -> tuple[list[Box], float]:
     boxes, top = [], 0.0
     for first in range(0, len(panels), columns):
         row = panels[first : first + columns]
+        top += _TITLE if any(panel.title for panel in row) else 0.0
         height = PANEL_INCHES * max(panel.height for panel in row)
         right = picture.right_margin + (0.75 if any(map(_graded, row)) else 0.0)
         width = (WIDTH - right) / columns - _LEFT
@@ -115,6 +124,8 @@ def _fill(axes: Axes, panel: Panel, colors: Colors, last: bool) -> None:
         spine.set_visible(side in ("left", "bottom"))
         spine.set_color(colors["muted"])
     axes.tick_params(colors=colors["ink"], labelsize=9, labelbottom=last, length=3)
+    if panel.title:
+        axes.set_title(panel.title, color=colors["ink"], size=9.5, weight="bold", loc="left")
     axes.set_ylabel(panel.y_label, color=colors["ink"], size=9.5)
     axes.yaxis.set_label_coords(-0.64 / (WIDTH * axes.get_position().width), 0.5)
     if last:
@@ -196,13 +207,21 @@ def _area(axes: Axes, area: Area, colors: Colors, order: float) -> None:
     polygons = [part[np.isfinite(part[:, 0])] for part in np.split(points, breaks)]
     collection = PolyCollection(
         [polygon for polygon in polygons if len(polygon) > 2],
-        facecolors=colors[area.color],
-        alpha=area.opacity,
         linewidths=0,
         antialiaseds=False,
         zorder=1 + order / 100,
+        **_filling(area, colors),
     )
     axes.add_collection(collection, autolim=True)
+
+
+def _filling(area: Area, colors: Colors) -> dict[str, Any]:
+    """Return how an area is filled: plain, or with stripes."""
+    tint = to_rgba(colors[area.color], area.opacity)
+    if not area.hatched:
+        return {"facecolor": tint}
+    stripes = to_rgba(colors[area.color], min(1.0, 3.0 * area.opacity))
+    return {"facecolor": tint, "edgecolor": stripes, "hatch": "////"}
 
 
 def _rule(axes: Axes, rule: Rule, colors: Colors, order: float) -> None:
@@ -316,7 +335,9 @@ def _handle(item: Any, colors: Colors) -> Any:
         return Line2D([], [], linestyle="none", **_marker(item, colors))
     if isinstance(item, Line | ZeroLine):
         return Line2D([], [], color=colors[item.color], linestyle=_DASHES[item.dash])
-    return Patch(facecolor=colors[item.color], alpha=getattr(item, "opacity", 1.0))
+    if isinstance(item, Area):
+        return Patch(linewidth=0, **_filling(item, colors))
+    return Patch(facecolor=colors[item.color])
 
 
 def _columns(legend: dict[str, Any]) -> int:
@@ -337,7 +358,8 @@ def _add_legend(figure: Figure, legend: dict[str, Any], colors: Colors) -> None:
         fontsize=_LEGEND_POINTS,
         labelcolor=colors["ink"],
         columnspacing=1.6,
-        handletextpad=0.5,
+        handlelength=3.0,
+        handletextpad=0.8,
         borderpad=0.2,
         labelspacing=0.35,
     )

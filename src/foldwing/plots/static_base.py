@@ -26,7 +26,7 @@ def new_figure(width: float, height: float, colors: Colors) -> Figure:
 
 def wrapped(caption: str) -> list[str]:
     """Break a caption into lines that fit the width."""
-    return textwrap.wrap(caption, 118)
+    return textwrap.wrap(caption, 114)
 
 
 def write_head(figure: Figure, title: str, caption: list[str], colors: Colors) -> None:

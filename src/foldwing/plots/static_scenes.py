@@ -13,8 +13,9 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize, to_rgba
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from foldwing.plots.picture import Array, Picture, Scene, Surface, Tag, Thread
+from foldwing.plots.picture import Array, Dot, Picture, Scene, SceneItem, Surface, Thread
 from foldwing.plots.static_base import (
     WIDTH,
     Colors,
@@ -27,6 +28,9 @@ from foldwing.plots.static_base import (
 _MARGIN = 0.1
 _BAR = 0.62
 """Height of a scale of colours with its label in inches."""
+
+_LEGEND = 0.3
+"""Height of the legend in inches."""
 
 Range = tuple[float, float]
 View = tuple[float, float]
@@ -52,7 +56,9 @@ def draw_scenes(picture: Picture, colors: Colors) -> Figure:
     shape = (window.up[1] - window.up[0]) / (window.across[1] - window.across[0])
     bar = _BAR if any(scene.graded for scene in scenes) else 0.0
     height = min(max(shape * width, 1.1), 4.5) + 0.3 + bar
-    total = head + rows * height + 0.1
+    legend = {d.label: d for s in scenes for d in s.items if isinstance(d, Dot) and d.label}
+    foot = _LEGEND if legend else 0.0
+    total = head + rows * height + 0.1 + foot
     figure = new_figure(WIDTH, total, colors)
     write_head(figure, picture.title, caption, colors)
     for number, scene in enumerate(scenes):
@@ -65,7 +71,26 @@ def draw_scenes(picture: Picture, colors: Colors) -> Figure:
         )
         _draw(figure.add_axes(place), scene, window, colors)
         _add_scale(figure, scene, place, colors)
+    if legend:
+        _add_legend(figure, legend, colors)
     return figure
+
+
+def _add_legend(figure: Figure, legend: dict[str, Dot], colors: Colors) -> None:
+    """Name the marks below the scenes."""
+    handles = [Line2D([], [], linestyle="none", **_marker(dot, colors)) for dot in legend.values()]
+    box = figure.legend(
+        handles,
+        list(legend),
+        loc="lower left",
+        bbox_to_anchor=(_MARGIN / WIDTH, 0.04 / figure.get_figheight()),
+        ncols=len(legend),
+        frameon=False,
+        fontsize=8.5,
+        labelcolor=colors["ink"],
+        handletextpad=0.3,
+    )
+    box.set_in_layout(False)
 
 
 def _add_scale(
@@ -98,7 +123,7 @@ def project(points: Array, view: View) -> tuple[Array, Array]:
     return paper, tilt_c * away - tilt_s * up
 
 
-def _window(scenes: Sequence[Sequence[Surface | Thread | Tag]], view: View) -> Window:
+def _window(scenes: Sequence[Sequence[SceneItem]], view: View) -> Window:
     """Return the part of the paper that all scenes need, those of a film too."""
     places = (project(points, view)[0] for items in scenes for points in _points(items))
     parts = [place.reshape(-1, 2) for place in places]
@@ -109,7 +134,7 @@ def _window(scenes: Sequence[Sequence[Surface | Thread | Tag]], view: View) -> W
     return Window((low[0] - room, high[0] + room), (low[1] - room, high[1] + room), view)
 
 
-def _points(items: Sequence[Surface | Thread | Tag]) -> Iterator[Array]:
+def _points(items: Sequence[SceneItem]) -> Iterator[Array]:
     for item in items:
         if isinstance(item, Surface):
             yield np.stack([item.x, item.y, item.z], axis=-1)
@@ -128,9 +153,24 @@ def _draw(axes: Axes, scene: Scene, window: Window, colors: Colors) -> None:
     for item in scene.items:
         if isinstance(item, Thread):
             _draw_thread(axes, item, window.view, colors)
-        elif isinstance(item, Tag):
+        elif isinstance(item, Dot):
+            x, y = project(item.point, window.view)[0]
+            axes.plot([x], [y], zorder=5 if item.filled else 4, **_marker(item, colors))
+        elif not isinstance(item, Surface):
             x, y = project(item.point, window.view)[0]
             axes.text(x, y, item.text, color=colors[item.color], size=8, ha="center", va="center")
+
+
+def _marker(dot: Dot, colors: Colors) -> dict[str, Any]:
+    """Return how a mark looks: filled ones get a rim in the colour of the paper."""
+    color = colors[dot.color]
+    return {
+        "marker": "o",
+        "markersize": dot.size,
+        "markerfacecolor": color if dot.filled else "none",
+        "markeredgecolor": colors["paper"] if dot.filled else color,
+        "markeredgewidth": 0.7 if dot.filled else 1.4,
+    }
 
 
 def _draw_surfaces(axes: Axes, surfaces: list[Surface], view: View, colors: Colors) -> None:

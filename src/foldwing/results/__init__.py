@@ -10,11 +10,13 @@
 `writing`            netCDF and CSV
 `steady_table`       tables of steady loads
 `flight_table`       tables of the flight of a rigid aircraft
+`aircraft_table`     tables of a flexible aircraft: trim, motions, its wing clamped
 `flight_summary`     the answer of a flight in one line
 `folders`            result folders: whole or not at all, never over something else
 ===================  ==========================================================================
 """
 
+from foldwing.results.aircraft_table import write_aircraft_csv
 from foldwing.results.flight_table import write_flight_csv
 from foldwing.results.flutter_table import FlutterRow, flutter_rows, table_variables
 from foldwing.results.folders import check_writable, default_folder, free_name, result_folder
@@ -51,6 +53,7 @@ __all__ = [
     "read_dataset",
     "result_folder",
     "table_variables",
+    "write_aircraft_csv",
     "write_convergence_csv",
     "write_csv",
     "write_dataset",

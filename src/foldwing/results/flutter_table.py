@@ -82,10 +82,14 @@ class FlutterRow:
     motion: str = ELASTIC
 
     @property
+    def as_a_whole(self) -> bool:
+        """Whether an aircraft oscillates as a whole here, which bounds no airspeed."""
+        return self.kind == "flutter" and self.motion != ELASTIC
+
+    @property
     def is_critical(self) -> bool:
         """Whether an instability that bounds the airspeed begins here."""
-        as_a_whole = self.kind == "flutter" and self.motion != ELASTIC
-        return self.event != "recovery" and not as_a_whole
+        return self.event != "recovery" and not self.as_a_whole
 
 
 def table_variables(rows: Sequence[FlutterRow]) -> dict[str, tuple[tuple[str, ...], Any]]:

@@ -89,10 +89,14 @@ def _modes_answer(dataset: "xarray.Dataset") -> str:
     frequencies = dataset["natural_frequency"].values
     if not np.isfinite(frequencies).any():
         return "No natural frequencies were found."
-    case, mode = np.unravel_index(np.nanargmin(frequencies), frequencies.shape)
+    elastic = np.where(frequencies > 0.0, frequencies, np.nan)
+    of = " of an elastic mode" if (frequencies == 0.0).any() else ""
+    if np.isnan(elastic).all():
+        return "No mode is elastic."
+    case, mode = np.unravel_index(np.nanargmin(elastic), elastic.shape)
     name = dataset["mode_name"].values[case, mode]
     where = _listed(f"mode {name}", fold_text(dataset, int(case)))
-    return f"The lowest natural frequency is {frequencies[case, mode]:.3g} Hz ({where})."
+    return f"The lowest natural frequency{of} is {elastic[case, mode]:.3g} Hz ({where})."
 
 
 def _steady_answer(dataset: "xarray.Dataset") -> str:
@@ -132,13 +136,6 @@ def _flutter_answer(dataset: "xarray.Dataset") -> str:
         text = "; ".join(parts)
         return f"{already}{text[0].upper()}{text[1:]}."
     return already or _nothing_found(dataset)
-
-
-def motion_text(eigenvalue: complex) -> str:
-    """Return frequency in Hz and damping ratio of an oscillation, a dash where it is lost."""
-    if not np.isfinite(eigenvalue) or eigenvalue.imag == 0.0:
-        return "-"
-    return f"{eigenvalue.imag / (2 * math.pi):.3g}, {-eigenvalue.real / eigenvalue.imag:+.3f}"
 
 
 def unstable_motions(dataset: "xarray.Dataset") -> str:
