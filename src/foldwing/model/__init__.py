@@ -1,4 +1,4 @@
-"""What the user describes: a wing, its parts, its air and how it is analysed.
+"""What the user describes: a wing or a typical section, its air and how it is analysed.
 
 =============  =====================================================================
 Module         Responsibility
@@ -8,6 +8,7 @@ quantities     numbers with units and bounds, resolved to SI floats
 record         base of all tables: frozen, unknown keys rejected with a suggestion
 material       materials, section properties of a strip of sheet
 parts, wing    the resolved wing that the physics uses
+section        the resolved typical section; section_table as it is written
 schema         the tables of a model file as written; JSON schema
 resolve        from the tables to the wing
 library        the models and measurements shipped with the package
@@ -24,8 +25,15 @@ from foldwing.model.library import (
 )
 from foldwing.model.material import Material, strip_inertia, strip_properties
 from foldwing.model.parts import Air, Analysis, Hinge, HingeKind, Lattice, PointMass, Segment
-from foldwing.model.reader import model_text, parse_model, read_model
+from foldwing.model.reader import (
+    model_text,
+    parse_model,
+    parse_section,
+    read_model,
+    read_section,
+)
 from foldwing.model.schema import json_schema
+from foldwing.model.section import TypicalSection
 from foldwing.model.wing import Wing
 
 __all__ = [
@@ -38,6 +46,7 @@ __all__ = [
     "Material",
     "PointMass",
     "Segment",
+    "TypicalSection",
     "Wing",
     "example_names",
     "example_text",
@@ -46,7 +55,9 @@ __all__ = [
     "measurement_names",
     "model_text",
     "parse_model",
+    "parse_section",
     "read_model",
+    "read_section",
     "strip_inertia",
     "strip_properties",
 ]

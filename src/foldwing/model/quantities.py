@@ -222,6 +222,8 @@ def _unit_factor(unit: str, si_unit: str) -> tuple[float, str]:
         return math.nan, f"{unit!r} is {one.dimensionality}"
     except (pint.PintError, ArithmeticError, AttributeError, TypeError, ValueError):
         return math.nan, f"{unit!r} is not a unit we know"
+    if si_unit == "Hz" and "radian" in dict(one.to_root_units().unit_items()):
+        factor /= 2.0 * math.pi  # to pint a radian is 1, and so would be a cycle
     # Pint takes every dimensionless unit for an angle: five percent is none.
     if si_unit == "rad" and one.to_root_units().units != registry.radian:
         return math.nan, f"{unit!r} is not an angle"
@@ -314,3 +316,11 @@ WakeLength = Annotated[
     float, Quantity("a number of chords", "", "20", Bounds(above=0, at_most=1e4))
 ]
 Relaxation = Annotated[float, Quantity("a factor", "", "0.99", Bounds(at_least=0, below=1))]
+Frequency = Annotated[float, Quantity("a frequency", "Hz", '"8 Hz" or "50 rad/s"', _POSITIVE)]
+PlungeStiffness = Annotated[
+    float, Quantity("a stiffness per span", "N/m^2", '"2 kN/m^2"', _POSITIVE)
+]
+TorsionStiffness = Annotated[
+    float, Quantity("a torsion stiffness per span", "N*m/rad/m", '"40 N*m/rad/m"', _POSITIVE)
+]
+Ratio = Annotated[float, Quantity("a ratio", "", "2.5", _POSITIVE)]

@@ -21,6 +21,7 @@ from foldwing.model.quantities import (
     SectionStiffness,
 )
 from foldwing.model.record import Record
+from foldwing.model.section_table import SectionTable
 
 HingeForm = Literal["springs", "stiffness", "rigid", "free"]
 
@@ -129,7 +130,10 @@ class WingTable(SegmentKeys):
         return self
 
 
-COMMANDS = {"wing": "foldwing modes, flutter, boundary, convergence or steady"}
+COMMANDS = {
+    "wing": "foldwing modes, flutter, boundary, convergence or steady",
+    "section": "foldwing section",
+}
 """By table that a model file may be about: what works on it."""
 
 
@@ -143,6 +147,7 @@ class ModelFile(Record):
     air: Air = Air()
     analysis: Analysis = Analysis()
     lattice: Lattice = Lattice()
+    section: SectionTable | None = None
 
     @model_validator(mode="after")
     def _is_about_something(self) -> Self:
