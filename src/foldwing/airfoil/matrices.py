@@ -2,8 +2,8 @@
 
 Coordinates are the plunge h1 of the elastic axis in half chords, positive **down**, the plunge h2
 of the second mass if there is one, also positive down, and the pitch alpha, positive nose up; time
-is in 1/omega_1. With x = x/b measured aft of the elastic axis a particle of the airfoil goes down by
-h1 + x alpha, one of the second mass by h2 + x alpha: it hangs on a spring from the airfoil's plunge
+is in 1/omega_1. A particle x half chords aft of the elastic axis goes down by h1 + x alpha in the
+airfoil and by h2 + x alpha in the second mass, which hangs on a spring from the airfoil's plunge
 but pitches with the airfoil, its mass centre at the same offset e. Per m b^2 omega_1^2,
 
     2 T = h1'^2 + 2 e h1' alpha' + m2 (h2'^2 + 2 e h2' alpha') + r^2 alpha'^2

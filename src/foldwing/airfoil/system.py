@@ -128,13 +128,15 @@ class SectionSystem:
         p, C, dC = (values[:, None, None] for values in (p, C, dC))
         inertia = A.mass + A.apparent_mass
         with np.errstate(invalid="ignore"):  # at p = 0 dC/dp is infinite
-            T2 = p**2 * inertia + p * A.rate + C * (p * A.lag_rate + A.lag)
-            dT2 = 2.0 * p * inertia + A.rate + C * A.lag_rate + dC * (p * A.lag_rate + A.lag)
+            lagging = p * A.lag_rate + A.lag
+            T2: Complex = p**2 * inertia + p * A.rate + C * lagging
+            dT2: Complex = 2.0 * p * inertia + A.rate + C * A.lag_rate + dC * lagging
         T1 = dT1 = None
         if self._damping is not None:
             T1, dT1 = p * self._damping / unit, np.ones_like(p) * self._damping / unit
-        one = np.eye(self.size, dtype=complex)
-        return Pencil(one, T1, T2 / unit**2), Pencil(0.0 * one, dT1, dT2 / unit**2)
+        one: Complex = np.eye(self.size, dtype=np.complex128)
+        zero = np.zeros_like(one)
+        return Pencil(one, T1, T2 / unit**2), Pencil(zero, dT1, dT2 / unit**2)
 
     def still_air(self) -> StillAir:
         """Return the problem at U = 0, with apparent mass unless quasi-steady."""

@@ -241,6 +241,7 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
         DATASET_FILE,
         free_name,
         result_folder,
+        write_changes_csv,
         write_convergence_csv,
         write_csv,
         write_dataset,
@@ -260,6 +261,8 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
             write_convergence_csv(dataset, staging)
         if "lift_slope" in dataset:
             write_steady_csv(dataset, staging)
+        if "change_kind" in dataset:
+            write_changes_csv(dataset, staging / "changes.csv")
         if output.plot:
             from foldwing.plots import write_pictures, write_report
 

@@ -71,9 +71,7 @@ def resolved_section(model: ModelFile) -> TypicalSection:
 def _check_no_wing_tables(model: ModelFile) -> None:
     """Refuse what a section would silently ignore."""
     unused = [key for key in _OF_WINGS if key in model.model_fields_set]
-    unused += [
-        f"analysis.{key}" for key in sorted(model.analysis.model_fields_set - _OF_SECTIONS)
-    ]
+    unused += [f"analysis.{key}" for key in sorted(model.analysis.model_fields_set - _OF_SECTIONS)]
     if unused:
         limit = "belongs to a wing, and this file has a section alone"
         raise InputError(unused[0], "a value", limit, f"Remove {unused[0]}.")

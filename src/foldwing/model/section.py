@@ -72,7 +72,9 @@ class TypicalSection(Record):
             raise fault(("mass_offset",), self.mass_offset, limit, remedy)
         least = self.mass_offset**2 * (1.0 + (self.second_mass_ratio or 0.0))
         if self.inertia_ratio <= least:
-            limit = f"must be greater than mass_offset^2 times all mass over the airfoil's, {least:g}"
+            limit = (
+                f"must be greater than mass_offset^2 times all mass over the airfoil's, {least:g}"
+            )
             remedy = "Give the inertia about the elastic axis, or a smaller mass_offset."
             raise fault(("inertia_ratio",), self.inertia_ratio, limit, remedy)
         return self
@@ -84,12 +86,12 @@ class TypicalSection(Record):
 
     @property
     def speed_unit(self) -> float:
-        """b omega_1 in m/s; 1 for a section without scales."""
+        """Speed b omega_1 in m/s; 1 for a section without scales."""
         return (self.half_chord or 1.0) * self.rate_unit
 
     @property
     def rate_unit(self) -> float:
-        """omega_1 in rad/s; 1 for a section without scales."""
+        """Frequency omega_1 in rad/s; 1 for a section without scales."""
         return 1.0 if self.plunge_frequency is None else 2.0 * math.pi * self.plunge_frequency
 
     def with_torsion(self, ratio: float) -> Self:

@@ -115,7 +115,9 @@ class SectionTable(Record):
         mass = self.mass_per_span + (self.second_mass_per_span or 0.0)
         least = mass * (self._mass_offset * self._half_chord) ** 2
         if self.inertia_per_span <= least:
-            limit = f"must be greater than all mass per span times mass offset squared, {least:g} kg*m"
+            limit = (
+                f"must be greater than all mass per span times mass offset squared, {least:g} kg*m"
+            )
             remedy = "Give the inertia about the elastic axis, or move mass_centre towards it."
             raise fault(("inertia_per_span",), self.inertia_per_span, limit, remedy)
 

@@ -12,6 +12,7 @@ from foldwing.plots.loads import flutter_circulation, pressure, pressure_of_mode
 from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.picture import Picture
 from foldwing.plots.response import response
+from foldwing.plots.section import section_boundary
 from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
 from foldwing.plots.steady import circulation, circulation_across, circulation_in_space
 
@@ -37,11 +38,13 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     circulation_across,
     circulation_in_space,
     response,
+    section_boundary,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 
 LEFT_OUT: "Mapping[str, tuple[Callable[[xarray.Dataset], Picture | None], ...]]" = {
-    "flutter": (natural_frequencies,)
+    "flutter": (natural_frequencies,),
+    "section": (natural_frequencies,),
 }
 """By kind of dataset, pictures that would say what others say already."""
 

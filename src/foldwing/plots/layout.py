@@ -81,9 +81,16 @@ def _in_words(dataset: "xarray.Dataset", name: str) -> str:
     return f"{hinge} from {degrees(values[0])} to {degrees(values[-1])}"
 
 
+def body_of(dataset: "xarray.Dataset") -> str:
+    """Return what moves: a wing, or a section."""
+    return "section" if dataset.attrs["kind"] == "section" else "wing"
+
+
 def dash_of(name: str) -> Dash:
     """Return a dash by family, so that colour is not the only difference: T twisting, D real."""
     families: Mapping[str, Dash] = {"T": "dash", "D": "dot"}
+    if name == "pitch":
+        return families["T"]
     return families.get(name[:1], "solid")
 
 

@@ -6,7 +6,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from foldwing.plots.events import color_of, event_marks, words
-from foldwing.plots.layout import dash_of, end_labels, focused, subtitle, threshold, upright_labels
+from foldwing.plots.layout import (
+    body_of,
+    dash_of,
+    end_labels,
+    focused,
+    subtitle,
+    threshold,
+    upright_labels,
+)
 from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import (
     Area,
@@ -25,6 +33,7 @@ from foldwing.plots.picture import (
 )
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.summary import fold_text, unresolved_below
+from foldwing.results.units import Units, units_of
 
 if TYPE_CHECKING:
     import xarray
@@ -52,27 +61,28 @@ def against_speed(dataset: "xarray.Dataset") -> Picture | None:
         *_branches(dataset, growth, growth_range, "growth"),
         *_rules(rows, colors),
         *resolved,
-        *_threshold_marks(rows, colors),
-        *_rule_labels(rows, colors, limits, growth_range[0]),
+        *_threshold_marks(rows, colors, units_of(dataset)),
+        *_rule_labels(rows, colors, limits, (growth_range[0], units_of(dataset).speed)),
     ]
     lower = [
         *_branches(dataset, frequency, (-0.03 * top, top), "frequency"),
         *_rules(rows, colors),
         *resolved,
-        *event_marks(rows, x, [row.frequency for row in rows], colors),
+        *event_marks(rows, x, [row.frequency for row in rows], colors, units=units_of(dataset)),
     ]
-    label = "airspeed (m/s)"
+    units, body = units_of(dataset), body_of(dataset)
+    label = units.speed_label
     return Picture(
         "growth-and-frequency",
-        "How the motions of the wing grow or decay as the airspeed rises",
+        f"How the motions of the {body} grow or decay as the airspeed rises",
         subtitle(dataset, fold_text(dataset, 0)) + ". Above zero (shaded) a motion grows by "
-        f"itself: the wing is unstable. Vertical lines mark the exact speeds {_where(dataset)}."
+        f"itself: the {body} is unstable. Vertical lines mark the exact speeds {_where(dataset)}."
         + (" Dotted: from here on the lattice resolves all modes." if resolved else ""),
         [
-            Panel(label, "growth rate (1/s)", upper, limits, growth_range, height=1.1),
-            Panel(label, "frequency (Hz)", lower, limits, (-0.03 * top, top), height=1.1),
+            Panel(label, units.growth_label, upper, limits, growth_range, height=1.1),
+            Panel(label, units.frequency_label, lower, limits, (-0.03 * top, top), height=1.1),
         ],
-        right_margin=0.6,
+        right_margin=0.6 if body == "wing" else 0.85,
     )
 
 
@@ -100,6 +110,7 @@ def root_locus(dataset: "xarray.Dataset") -> Picture | None:
     tint = Area(
         np.array([0.0, x_range[1], x_range[1], 0.0]), np.repeat(y_range, 2), "unstable", 0.1
     )
+    units = units_of(dataset)
     items: list[Item] = [tint, Rule(0.0, "x", "ink", width=1.2)]
     items += _paths(dataset, growth, frequency)
     items += _path_ends(dataset, (growth, frequency), x_range, top)
@@ -113,7 +124,7 @@ def root_locus(dataset: "xarray.Dataset") -> Picture | None:
         "Flutter begins where a path crosses to the right of zero growth",
         subtitle(dataset, fold_text(dataset, 0)) + ". Each path is one motion (an eigenvalue) "
         "from the lowest airspeed (blue) to the highest (orange).",
-        [Panel("growth rate (1/s)", "frequency (Hz)", items, x_range, y_range, height=1.8)],
+        [Panel(units.growth_label, units.frequency_label, items, x_range, y_range, height=1.8)],
     )
 
 
@@ -148,7 +159,7 @@ def _highest_shown(frequency: Array, rows: list[FlutterRow]) -> float:
     first = np.sort(frequency[rows_with_values[0]])
     fourth = float(first[min(3, int(np.isfinite(first).sum()) - 1)])
     flutter = max((row.frequency for row in rows), default=0.0)
-    return min(1.05 * float(finite.max()), max(1.25 * fourth, 1.6 * flutter)) or 1.0
+    return min(1.15 * float(finite.max()), max(1.25 * fourth, 1.6 * flutter)) or 1.0
 
 
 def _names(dataset: "xarray.Dataset") -> list[str]:
@@ -188,17 +199,23 @@ def _rules(rows: list[FlutterRow], colors: dict[str, str]) -> list[Item]:
     return [Rule(row.speed, "x", color_of(row, colors), "dash", 0.9) for row in rows]
 
 
-def _threshold_marks(rows: list[FlutterRow], colors: dict[str, str]) -> list[Marks]:
+def _threshold_marks(rows: list[FlutterRow], colors: dict[str, str], units: Units) -> list[Marks]:
     """Return marks at zero growth, for the points that are reported there."""
     neutral = [row for row in rows if row.threshold == 0 and row.event != "merger"]
-    return event_marks(neutral, [row.speed for row in neutral], [0.0] * len(neutral), colors)
+    speed = [row.speed for row in neutral]
+    return event_marks(neutral, speed, [0.0] * len(neutral), colors, units=units)
 
 
 def _rule_labels(
-    rows: list[FlutterRow], colors: dict[str, str], limits: Range, y: float
+    rows: list[FlutterRow], colors: dict[str, str], limits: Range, foot: tuple[float, str]
 ) -> list[Note]:
+    y, unit = foot
     events = [
-        (row.speed, f"{words(row).partition(' (')[0]} {row.speed:.3g} m/s", color_of(row, colors))
+        (
+            row.speed,
+            f"{words(row).partition(' (')[0]} {row.speed:.3g} {unit}",
+            color_of(row, colors),
+        )
         for row in rows
     ]
     return upright_labels(events, y, limits, _PLOT_INCHES)
@@ -206,9 +223,9 @@ def _rule_labels(
 
 def _paths(dataset: "xarray.Dataset", growth: Array, frequency: Array) -> list[Item]:
     speed = dataset["speed"].values
-    limits = _speed_range(speed)
+    limits, label = _speed_range(speed), units_of(dataset).speed_label
     return [
-        Graded(growth[:, branch], frequency[:, branch], speed, limits, "airspeed (m/s)", name)
+        Graded(growth[:, branch], frequency[:, branch], speed, limits, label, name)
         for branch, name in enumerate(_names(dataset))
         if np.isfinite(growth[:, branch]).any()
     ]
@@ -249,4 +266,5 @@ def _apart(notes: list[Note], gap: float) -> list[Note]:
 def _crossing_marks(dataset: "xarray.Dataset") -> list[Marks]:
     rows = [row for row in _rows_shown(dataset) if row.threshold == 0 and row.event != "merger"]
     zero = [0.0] * len(rows)
-    return event_marks(rows, zero, [row.frequency for row in rows], mode_colors(dataset))
+    frequency = [row.frequency for row in rows]
+    return event_marks(rows, zero, frequency, mode_colors(dataset), units=units_of(dataset))

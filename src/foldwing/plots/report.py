@@ -12,6 +12,7 @@ from foldwing.plots.interactive import figure
 from foldwing.plots.palette import THEMES
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
+from foldwing.results.section_table import changes_table, points_table
 from foldwing.results.steady_table import legend, loads_table, segments_table
 from foldwing.results.summary import answer, certificate, degrees, fold_text, warnings
 
@@ -150,6 +151,8 @@ def _table(dataset: "xarray.Dataset") -> list[str]:
         return []
     if dataset.attrs["kind"] == "steady":
         return _loads(dataset)
+    if dataset.attrs["kind"] == "section":
+        return _section_tables(dataset)
     rows = flutter_rows(dataset)
     if not rows:
         return ["<h2>Flutter points</h2>", "<p>None were found.</p>"]
@@ -176,6 +179,17 @@ def _loads(dataset: "xarray.Dataset") -> list[str]:
         f"<h2>On each segment{f', {first}' if first else ''}</h2>",
         f'<div class="scroll">{_html(*segments_table(dataset))}</div>',
     ]
+
+
+def _section_tables(dataset: "xarray.Dataset") -> list[str]:
+    """Return the flutter points of a section, and where the lowest onset changes."""
+    points, changes = points_table(dataset), changes_table(dataset)
+    parts = ["<h2>Flutter points</h2>"]
+    parts.append(f'<div class="scroll">{_html(*points)}</div>' if points.rows else "<p>None.</p>")
+    if changes.rows:
+        parts.append("<h2>Where the lowest onset goes over to another curve</h2>")
+        parts.append(f'<div class="scroll">{_html(*changes)}</div>')
+    return parts
 
 
 _COLUMNS = ("what happens", "speed (m/s)", "frequency (Hz)", "mode", "class", "strength (s/m)")

@@ -58,7 +58,7 @@ def provenance(
     title : str
         Title of the model.
     kind : str
-        ``modes``, ``flutter``, ``boundary``, ``convergence`` or ``steady``.
+        ``modes``, ``flutter``, ``boundary``, ``convergence``, ``steady`` or ``section``.
     model_text : str
         The model file as it was read.
     method : str

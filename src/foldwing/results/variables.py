@@ -91,6 +91,10 @@ _COORDINATES = (
     variable("row", ("row",), "1", "panel along the chord, 1 at the leading edge", "integer"),
     variable("edge", ("edge",), "", "edge of a strip: inner or outer", "text"),
     variable("time", ("time",), "s", "time after the disturbance"),
+    variable("torsion_frequency_ratio", FOLD, "1", "frequency of pitch over that of plunge"),
+    variable("change", ("change",), "1", "change of the lowest onset, by torsion", "integer"),
+    variable("side", ("side",), "", "below or above the torsion frequency of a change", "text"),
+    variable("crossing", ("crossing",), "1", "plunge mode whose frequency pitch meets", "integer"),
 )
 
 _MODES = (
@@ -239,9 +243,36 @@ _STEADY = (
     ),
 )
 
+_CHANGE: Dims = ("change",)
+_AT_CHANGE: Dims = ("change", "side")
+
+_SECTION = (
+    variable("speed_ratio", _TABLE, "1", "airspeed over half chord and plunge frequency"),
+    variable("frequency_ratio", _TABLE, "1", "frequency over that of plunge"),
+    variable("curve_torsion_ratio", _CURVE, "1", "torsion frequency ratio along the curve"),
+    variable("change_torsion_ratio", _CHANGE, "1", "where the lowest onset changes its curve"),
+    variable("change_kind", _CHANGE, "", "jump or crossing", "text"),
+    variable("change_speed", _AT_CHANGE, "m/s", "lowest onset on both sides"),
+    variable("change_frequency", _AT_CHANGE, "Hz", "its frequency on both sides"),
+    variable("change_confirmed", _CHANGE, "", "found again by searches on both sides", "truth"),
+    variable(
+        "crossing_torsion_ratio", ("crossing",), "1", "where pitch and plunge alone are in tune"
+    ),
+)
+
 VARIABLES: Mapping[str, Variable] = {
     row.name: row
-    for row in (*_MODES, *_LOCI, *_CASES, *_POINTS, *_EXTRAS, *_LOADS, *_LEVELS, *_STEADY)
+    for row in (
+        *_MODES,
+        *_LOCI,
+        *_CASES,
+        *_POINTS,
+        *_EXTRAS,
+        *_LOADS,
+        *_LEVELS,
+        *_STEADY,
+        *_SECTION,
+    )
 }
 """Every variable a dataset may hold."""
 

@@ -260,9 +260,7 @@ def _curve(equation: _Equation, points: Real, tangents: Real, end: str) -> Bound
     )
 
 
-def _turning_point(
-    equation: _Equation, ends: Real, tangent: Real
-) -> tuple[float, float, float]:
+def _turning_point(equation: _Equation, ends: Real, tangent: Real) -> tuple[float, float, float]:
     """Return s, k and U where the curve turns back between two of its points."""
     start, length = ends[0], float((ends[1] - ends[0]) @ tangent)
 
