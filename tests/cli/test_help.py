@@ -23,6 +23,8 @@ OPTIONS = {
     | {"--alpha", "--speed", "--panels", "--spacing", "--gap", "--image"},
     "boundary": OF_A_MODEL | OF_A_SEARCH | {"--measured", "--trace", "--jobs"},
     "convergence": OF_A_MODEL | OF_A_SEARCH | {"--vary", "--levels", "--jobs"},
+    "section": {"--plot", "--no-plot", "--out", "--force", "--json"}
+    | {"--torsion", "--speeds", "--max-speed", "--aero", "--damping-threshold"},
 }
 
 

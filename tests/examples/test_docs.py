@@ -166,6 +166,7 @@ TABLES = [
     ("air", table("air"), set()),
     ("analysis", table("analysis"), set()),
     ("lattice", table("lattice"), set()),
+    ("section", table("section"), set()),
 ]
 
 

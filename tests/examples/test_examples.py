@@ -8,10 +8,18 @@ import numpy as np
 import pytest
 
 from foldwing.cli.main import run
-from foldwing.model import example_names, example_text, measurement_names, read_model
+from foldwing.model import (
+    example_names,
+    example_text,
+    measurement_names,
+    read_model,
+    read_section,
+)
 from foldwing.studies.measured import read_measured
 
 MODELS = example_names()
+SECTIONS = [name for name in MODELS if "[section]" in example_text(name)]
+WINGS = [name for name in MODELS if name not in SECTIONS]
 INCH = 0.0254
 
 
@@ -35,7 +43,7 @@ def test_something_is_shipped():
     assert "level-tip-wind-tunnel" in measurement_names()
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", WINGS)
 def test_modes(answer, name):
     modes = answer("modes", name)
     frequencies = modes["natural_frequencies_hz"]
@@ -45,7 +53,7 @@ def test_modes(answer, name):
     assert {"B1", "T1"} <= set(modes["mode_names"])
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", WINGS)
 def test_flutter_is_certified(answer, name):
     flutter = answer("flutter", name)
     assert flutter["certified"] is True
@@ -55,12 +63,21 @@ def test_flutter_is_certified(answer, name):
     assert flutter["valid_from"] < 0.1 * flutter["critical"]["speed"]
 
 
+@pytest.mark.parametrize("name", SECTIONS)
+def test_sections_are_certified(answer, name):
+    section = answer("section", name)
+    assert section["certified"] is True
+    assert section["status"] == "ok"
+    assert {point["kind"] for point in section["flutter_points"]} == {"flutter", "divergence"}
+    assert section["natural_frequency_ratios"] == sorted(section["natural_frequency_ratios"])
+
+
 @pytest.mark.parametrize("name", MODELS)
 def test_copies_run_identically(answer, capsys, tmp_path, name):
     assert run(["examples", name, "--copy", "copy.toml"]) == 0
     assert capsys.readouterr().out == f"{name} -> copy.toml\n"
     assert (tmp_path / "copy.toml").read_text(encoding="utf-8") == example_text(name)
-    for command in ("modes", "flutter"):
+    for command in ("section",) if name in SECTIONS else ("modes", "flutter"):
         assert answer(command, "copy.toml") == answer(command, name)
 
 
@@ -74,7 +91,7 @@ def test_list_names_everything(capsys):
     assert run(["examples"]) == 0
     out = capsys.readouterr().out
     for name in MODELS:
-        title = read_model(name).title
+        title = (read_section if name in SECTIONS else read_model)(name).title
         assert re.search(rf"^{re.escape(name)} +{re.escape(title)}\s*$", out, re.MULTILINE)
     for name in measurement_names():
         assert name in out
@@ -169,6 +186,36 @@ def test_hale_wing():
     span = float(given("hale", r"span (\d+) m"))
     axis = float(given("hale", r"both at (\d+) % of the chord")) / 100
     assert (section.span, section.elastic_axis, section.mass_centre) == (span, axis, axis)
+
+
+def test_section_with_a_second_mass(answer):
+    section = read_section("airfoil-3dof")
+    air, inertia = (
+        float(given("airfoil-3dof", rf"1/([\d.]+) of the printed {what}"))
+        for what in ("air", "one")
+    )
+    assert (section.mass_ratio, section.inertia_ratio) == pytest.approx((1 / air, 1 / inertia))
+    printed = given("airfoil-3dof", r"at rest ([\d.]+ and [\d.]+);").split(" and ")
+    ours = answer("section", "airfoil-3dof")["natural_frequency_ratios"]
+    assert ours[:2] == pytest.approx([float(text) for text in printed], abs=0.005)
+
+
+def test_section_of_two_degrees_of_freedom_is_the_other_without_its_mass():
+    two, three = read_section("airfoil-2dof"), read_section("airfoil-3dof")
+    fewer = {"title": two.title, "second_mass_ratio": None, "second_frequency_ratio": None}
+    assert three.model_copy(update=fewer) == two
+
+
+def test_section_of_hodges_and_pierce():
+    section = read_section("hodges-pierce")
+    ratio, a, e, r2, sigma = (
+        float(Fraction(given("hodges-pierce", rf"{key} (-?[\d/]+)")))
+        for key in ("mass ratio", "a =", "e =", r"r\^2 =", "omega_theta =")
+    )
+    assert (section.mass_ratio, section.axis_offset) == pytest.approx((ratio, a))
+    assert section.mass_offset == pytest.approx(e - a)
+    assert section.inertia_ratio == pytest.approx(r2)
+    assert section.torsion_frequency_ratio == pytest.approx(1 / sigma)
 
 
 def test_measurements_belong_to_the_level_tip(answer, tmp_path):
