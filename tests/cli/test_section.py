@@ -216,13 +216,15 @@ BAD_MODELS = [
     (INERTIA, f"{INERTIA}\nchord = 1.0", "section.chord", "1.0", "in ratios or with dim", "Remove"),
     (INERTIA, f"{INERTIA}\nsecond_mass_ratio = 1", "section.second_frequency_ratio", "missing",
      "together with second_mass_ratio", "Add second_frequency_ratio"),
-    (INERTIA, f"{INERTIA}\nsecond_mass_ratio = 0", "section.second_mass_ratio", "0", "greater", "2.5"),
+    (INERTIA, f"{INERTIA}\nsecond_mass_ratio = 0", "section.second_mass_ratio", "0",
+     "greater", "2.5"),
     ("= 2.5", "= 0", "section.torsion_frequency_ratio", "got 0;", "greater than 0", "2.5"),
     ("= 0.1", "= 1.3", "section.mass_offset", "1.3", "on the chord", "elastic axis"),
     ("axis_offset", "axis_ofset", "section.axis_ofset", "-0.2", "not a known key", "axis_offset?"),
     ("[section]", "[air]\ndensity = 1.2\n[section]", "air", "1.2", "mass_ratio", "Remove [air]"),
     ("[section]", "[lattice]\nchordwise = 8\n[section]", "lattice", "belongs to a wing", "Remove"),
-    ("[section]", "[analysis]\nsystem_modes = 8\n[section]", "analysis.system_modes", "wing", "Remove"),
+    ("[section]", "[analysis]\nsystem_modes = 8\n[section]", "analysis.system_modes",
+     "wing", "Remove"),
 ]  # fmt: skip
 
 
@@ -240,7 +242,8 @@ BAD_DIMENSIONS = [
     ('"8.64 kg*m"', "0.1", "section.inertia_per_span", "0.1", "1.19", "mass_centre"),
     ('"13.9 Hz"', "0", "section.torsion_frequency", "got 0;", "greater than 0 Hz", '"8 Hz"'),
     ('"13.9 Hz"', '"3 kg"', "section.torsion_frequency", "'3 kg'", "is [mass]", "Hz"),
-    ("plunge_frequency", "# ", "section.plunge_stiffness", "missing", "plunge_frequency must", "Add"),
+    ("plunge_frequency", "# ", "section.plunge_stiffness", "missing", "plunge_frequency must",
+     "Add"),
     ("[air]", "half_chord = 1\n[air]", "section.half_chord", "1.0", "only one", "Remove chord"),
     ("[air]", "second_frequency = 3\n[air]", "section.second_mass_per_span", "missing",
      "together", "Add second_mass_per_span"),

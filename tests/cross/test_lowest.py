@@ -5,6 +5,7 @@ wing made of particles; searches and counts of unstable roots a millionth beside
 """
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -119,7 +120,7 @@ def test_between_changes_the_lowest_onset_is_continuous(study):
     grid = np.sort(np.concatenate([ratios, (ratios[1:] + ratios[:-1]) / 2]))
     lowest = [find_flutter(system(section, ratio), (0.1, 60.0)).critical for ratio in grid]
     reported = [change.parameter for change in study.changes]
-    for i, (left, right) in enumerate(zip(lowest[:-1], lowest[1:], strict=True)):
+    for i, (left, right) in enumerate(pairwise(lowest)):
         alike = abs(left.frequency - right.frequency) < 0.05 * max(left.frequency, 1e-9)
         alike |= left.frequency == right.frequency == 0.0
         assert alike != any(grid[i] < at < grid[i + 1] for at in reported)

@@ -12,6 +12,7 @@ A picture is described once (`picture`) and drawn by two renderers.
 `steady`                    circulation of a steady wing
 `determinant`               zero lines of the determinant
 `convergence`               airspeeds against the fineness of the computation
+`section`                   flutter speed and frequency of a section against its torsion frequency
 `catalogue`                 which of these a dataset has
 `layout`, `palette`         what they share: labels, ranges, colours by role
 `events`                    how flutter points look, the same everywhere
