@@ -172,6 +172,8 @@ def test_axes_of_a_section_in_ratios_say_so(cli, empty_folder):
     upper, lower = by_name["growth-and-frequency"].panels
     assert upper.x_label == "airspeed U/(b ω₁)"
     assert (upper.y_label, lower.y_label) == ("growth rate Re λ/ω₁", "frequency ω/ω₁")
+    (locus,) = by_name["root-locus"].panels
+    assert (locus.x_label, locus.y_label) == (upper.y_label, lower.y_label)
     texts = [item.text for item in upper.items if isinstance(item, Note)]
     assert "flutter begins 5.46 b ω₁" in texts
     at_rest = dataset["frequency"].values[0, 0, :2]

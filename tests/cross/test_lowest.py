@@ -144,6 +144,22 @@ def test_a_threshold_moves_the_change():
     assert change.speed[0] < three_dof().changes[0].speed[0]
 
 
+def test_no_change_is_made_up_at_the_ends_of_the_sweep():
+    """Flutter is lowest to the right of the only change, divergence to its left."""
+    section = TypicalSection(
+        mass_ratio=11.1,
+        inertia_ratio=0.29,
+        axis_offset=-0.34,
+        mass_offset=0.2,
+        torsion_frequency_ratio=1.8,
+        second_mass_ratio=0.14,
+        second_frequency_ratio=1.56,
+    )
+    (change,) = section_sweep(section, np.arange(3, 12, 2) / 10).changes
+    assert change.confirmed
+    assert change.frequency[0] == 0.0 < change.frequency[1]
+
+
 def test_no_change_without_a_second_motion():
     study = section_sweep(read_section("hodges-pierce"), np.arange(20, 31) / 10)
     assert study.changes == ()

@@ -11,6 +11,7 @@ from foldwing.airfoil.system import SectionSystem
 from foldwing.model import Analysis, TypicalSection, parse_section, read_section
 from foldwing.stability.flutter import find_flutter
 from foldwing.stability.loci import root_loci
+from foldwing.stability.problem import evaluate
 from foldwing.stability.tracking import still_air_roots
 from support.sections import RigidStrip
 from support.stability import of_kind
@@ -109,11 +110,24 @@ def test_a_vanishing_second_mass_changes_nothing():
         assert one.frequency == pytest.approx(other.frequency, rel=1e-6)
 
 
-def test_structural_damping_is_that_of_every_mode_at_rest():
-    damped = GENERAL.model_copy(update={"analysis": Analysis(damping=0.02)})
+@pytest.mark.parametrize("scales", [{}, {"half_chord": 0.5, "plunge_frequency": 3.0}])
+def test_structural_damping_is_that_of_every_mode_at_rest(scales):
+    damped = GENERAL.model_copy(update={"analysis": Analysis(damping=0.02), **scales})
     roots = still_air_roots(SectionSystem(damped)).eigenvalue
     np.testing.assert_allclose(-roots.real / np.abs(roots), 0.02, rtol=1e-10)
-    np.testing.assert_allclose(np.abs(roots), SectionSystem(GENERAL).frequency_ratios, rtol=1e-10)
+    rate = 2 * np.pi * scales.get("plunge_frequency", 1 / (2 * np.pi))
+    wanted = rate * SectionSystem(GENERAL).frequency_ratios
+    np.testing.assert_allclose(np.abs(roots), wanted, rtol=1e-10)
+
+
+def test_a_slow_stream_is_nearly_rest():
+    """Damping and scales of the equations at rest are those of the equations in a stream."""
+    scales = {"half_chord": 0.5, "plunge_frequency": 3.0, "analysis": Analysis(damping=0.02)}
+    system = SectionSystem(GENERAL.model_copy(update=scales))
+    rest = still_air_roots(system).eigenvalue
+    slow = np.full(len(rest), 1e-7)
+    for root, T in zip(rest, evaluate(system, rest * 0.5 / slow, slow), strict=True):
+        assert np.linalg.svd(T, compute_uv=False)[-1] < 1e-6, root
 
 
 B, RHO, OMEGA1 = 0.9144, 1.1, 50.0
