@@ -166,11 +166,14 @@ def test_no_change_without_a_second_motion():
     assert "change_kind" not in study.dataset
 
 
-def test_divergence_beyond_the_search_is_left_out():
-    family = section_family(read_section("airfoil-2dof"))
-    (stretch,) = divergence_onsets(family, np.array([1.0, 2.0, 3.0, 4.0]), 10.0)
-    np.testing.assert_array_equal(stretch.parameter, [1.0, 2.0, 3.0])
-    np.testing.assert_allclose(stretch.speed, np.sqrt(10.0) * stretch.parameter, rtol=1e-7)
+def test_divergence_is_continued_to_the_ends_and_not_beyond_the_search():
+    """For this section it is sqrt(10) times the torsion frequency ratio."""
+    family, ratios = section_family(read_section("airfoil-2dof")), np.array([1.0, 2.0, 3.0, 4.0])
+    for highest, wanted in ((10.0, [0.9, 1.0, 2.0, 3.0]), (20.0, [0.9, 1.0, 2.0, 3.0, 4.0, 4.1])):
+        points = [(at, p) for at in ratios for p in find_flutter(family(at), (0.2, highest)).points]
+        (stretch,) = divergence_onsets(family, points, ratios, (0.9, 4.1))
+        np.testing.assert_array_equal(stretch.parameter, wanted)
+        np.testing.assert_allclose(stretch.speed, np.sqrt(10.0) * stretch.parameter, rtol=1e-7)
 
 
 def test_structural_damping_raises_the_onset():

@@ -132,6 +132,41 @@ def follow_boundary(
     return _curve(equation, np.array(points), np.array(tangents), end)
 
 
+def point_between(
+    family: Family,
+    ends: tuple[tuple[float, float, float], tuple[float, float, float]],
+    share: float,
+    threshold: float = 0.0,
+) -> tuple[float, float, float] | None:
+    """Return s, k and U of the curve between two of its points, across their chord.
+
+    Well conditioned also where the curve is steep in s, or turns back.
+
+    Parameters
+    ----------
+    family : callable
+        Returns the system at a value of s.
+    ends : pair of (float, float, float)
+        s, k and U of two points of the curve, close to each other.
+    share : float
+        Part of the way along the chord, 0 to 1.
+    threshold : float
+        Damping ratio of the boundary, positive stable.
+
+    Returns
+    -------
+    tuple of float, or None
+        None when the iteration does not converge.
+    """
+    equation = _Equation(family, abs(ends[1][0] - ends[0][0]), 1j - threshold)
+    start, end = (np.array([np.log(k), np.log(U), s / equation.scale]) for s, k, U in ends)
+    chord = end - start
+    found = equation.corrected(start + share * chord, chord / np.linalg.norm(chord))
+    if found is None:
+        return None
+    return float(found[2] * equation.scale), float(np.exp(found[0])), float(np.exp(found[1]))
+
+
 @dataclass(frozen=True)
 class _Equation:
     """r = 0 in the variables v = (log k, log U, s / first step)."""

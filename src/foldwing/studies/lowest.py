@@ -6,7 +6,7 @@ airspeed jumps, or two curves cross, and the motion and its frequency change at 
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal
 
@@ -14,10 +14,12 @@ import numpy as np
 from scipy.optimize import brentq
 
 from foldwing.maths.arrays import Real
+from foldwing.stability.continuation import point_between
 from foldwing.stability.crossings import divergence_speeds
 from foldwing.stability.flutter import find_flutter
 from foldwing.stability.newton import polish_crossings
 from foldwing.stability.problem import AeroelasticProblem
+from foldwing.stability.status import FlutterPoint
 from foldwing.studies.failures import NUMERICAL_FAILURES
 from foldwing.studies.trace import TracedCurve
 
@@ -25,8 +27,16 @@ Family = Callable[[float], AeroelasticProblem]
 Point = tuple[float, float]
 """Airspeed and frequency (0 for divergence)."""
 
-BESIDE = 1e-6
-"""Relative distance in the parameter at which a change is confirmed by a search of its own."""
+BESIDE = (1e-6, 1e-4)
+"""Relative distances in the parameter at which a change is confirmed by a search of its own: the
+second where two points that have just come into being are too close to be told apart."""
+
+NARROW = 4.0
+"""Factor around the airspeeds of a change within which it is sought where a search of the whole
+range passes over two points close to each other."""
+
+SAME = 1e-9
+"""Relative difference in the parameter below which two changes are one, found twice."""
 
 ALIKE = 0.05
 """Relative difference in airspeed and frequency below which that search finds the same point: a
@@ -57,6 +67,12 @@ class Onsets:
     def diverges(self) -> bool:
         """Whether these are onsets of divergence."""
         return not self.frequency.any()
+
+    def slope(self, window: tuple[float, float]) -> float:
+        """Return how steep the airspeed is within a window of the parameter, on average."""
+        low, high = np.clip(window, self.parameter[0], self.parameter[-1])
+        speeds = np.log([self.near(low)[0], self.near(high)[0]])
+        return float(abs(np.diff(speeds)[0]) / (high - low)) if high > low else 0.0
 
     def near(self, at: float) -> Point:
         """Return airspeed and frequency between the samples."""
@@ -134,15 +150,42 @@ def _with_turns(curve: TracedCurve) -> Real:
     return np.insert(samples, after, np.array(rows).reshape(-1, 5), axis=0)
 
 
-def divergence_onsets(family: Family, values: Real, highest: float) -> list[Onsets]:
-    """Return the lowest divergence speeds at values of the parameter, where there are any."""
-    found = [divergence_speeds(family(float(value))) for value in values]
-    speed = np.array([speeds[0] if len(speeds) else np.inf for speeds in found])
-    runs = np.split(np.arange(len(values)), np.flatnonzero(np.diff(speed <= highest)) + 1)
+def divergence_onsets(
+    family: Family, points: Sequence[tuple[float, FlutterPoint]], ratios: Real, around: Point
+) -> list[Onsets]:
+    """Return the lowest onsets of divergence in stretches of neighbouring cases.
+
+    Parameters
+    ----------
+    family : callable
+        The system at a value of the parameter.
+    points : sequence of (float, FlutterPoint)
+        What was found, with the value of the parameter.
+    ratios : array, shape (m,)
+        The values looked at, ascending.
+    around : (float, float)
+        Values beyond both ends up to which the first and the last stretch are continued.
+    """
+    lowest: dict[float, float] = {}
+    for at, point in points:
+        if (point.kind, point.event) == ("divergence", "onset"):
+            lowest[at] = min(point.speed, lowest.get(at, np.inf))
+    stretches, run = [], [around[0]] if float(ratios[0]) in lowest else []
+    for at in [*ratios.tolist(), np.inf]:
+        if at in lowest:
+            run.append(at)
+        elif run:
+            run += [around[1]] if run[-1] == float(ratios[-1]) else []
+            stretches.append(run)
+            run = []
+    speeds = [
+        [lowest[at] if at in lowest else float(divergence_speeds(family(at))[0]) for at in run]
+        for run in stretches
+    ]
     return [
-        Onsets(values[run], speed[run], np.zeros(len(run)), (False, False))
-        for run in runs
-        if len(run) > 1 and speed[run[0]] <= highest
+        Onsets(np.array(run), np.array(speed), np.zeros(len(run)), (False, False))
+        for run, speed in zip(stretches, speeds, strict=True)
+        if len(run) > 1
     ]
 
 
@@ -169,7 +212,7 @@ def changes(
     grid = np.unique(np.concatenate([stretch.parameter for stretch in stretches]))
     middles = (grid[1:] + grid[:-1]) / 2.0
     lowest = [_lowest(stretches, float(at)) for at in middles]
-    found = []
+    found: list[Change] = []
     for cell, (old, new) in enumerate(pairwise(lowest)):
         if old is new:
             continue
@@ -177,7 +220,8 @@ def changes(
         if change is None and old is not None and new is not None:
             window = grid[max(cell + 1 - WIDEST, 0)], grid[min(cell + 1 + WIDEST, len(grid) - 1)]
             change = _crossing(family, (old, new), window, threshold)
-        if change is not None:
+        known = (abs(change.parameter / other.parameter - 1.0) < SAME for other in found if change)
+        if change is not None and not any(known):
             found.append(_confirmed(family, change, speed_range, threshold))
     return found
 
@@ -190,7 +234,10 @@ def _lowest(stretches: Sequence[Onsets], at: float) -> Onsets | None:
 def _turn(
     family: Family, old: Onsets | None, new: Onsets | None, at: float, threshold: float
 ) -> Change | None:
-    """Return the jump where one of two stretches ends because its curve turns back."""
+    """Return the jump where one of two stretches ends because its curve turns back.
+
+    None when it turns back above the other one: then they cross beside that point.
+    """
     ends = old is not None and old.turns[1] and old.parameter[-1] == at
     begins = new is not None and new.turns[0] and new.parameter[0] == at
     if not ends and not begins:
@@ -204,41 +251,90 @@ def _turn(
         return stretch.exact(family, at, threshold)
 
     below, above = value(old, ends, -1), value(new, begins, 0)
+    if (ends and below[0] > above[0]) or (begins and above[0] > below[0]):
+        return None
     return Change(at, "jump", (below[0], above[0]), (below[1], above[1]), False)
 
 
 def _crossing(
     family: Family, pair: tuple[Onsets, Onsets], window: tuple[float, float], threshold: float
 ) -> Change | None:
-    """Return where two stretches have the same airspeed; None when they do not cross there."""
-    old, new = pair
-    low = max(window[0], float(old.parameter[0]), float(new.parameter[0]))
-    high = min(window[1], float(old.parameter[-1]), float(new.parameter[-1]))
+    """Return where two stretches have the same airspeed; None when they do not cross there.
 
-    def difference(at: float) -> float:
-        return old.exact(family, at, threshold)[0] - new.exact(family, at, threshold)[0]
-
-    if high <= low or difference(low) * difference(high) >= 0.0:
+    The point moves along the steeper of them and is compared with the other one above or below it.
+    """
+    steep, other = sorted(pair, key=lambda one: one.slope(window), reverse=True)
+    if steep.diverges:
+        steep, other = other, steep
+    low = max(window[0], float(other.parameter[0]))
+    high = min(window[1], float(other.parameter[-1]))
+    inside = np.flatnonzero((steep.parameter >= low) & (steep.parameter <= high))
+    above = [
+        float(steep.speed[i]) - other.exact(family, float(steep.parameter[i]), threshold)[0]
+        for i in inside
+    ]
+    signs = np.flatnonzero(np.diff(np.sign(above)))
+    if steep.diverges or not len(signs):
         return None
-    at = float(brentq(difference, low, high, xtol=1e-12))
-    below, above = (stretch.exact(family, at, threshold) for stretch in pair)
-    return Change(at, "crossing", (below[0], above[0]), (below[1], above[1]), False)
+    first = int(inside[signs[0]])
+    found = _meeting(family, steep, other, first, threshold)
+    if found is None:
+        return None
+    at, one = found
+    two = other.exact(family, at, threshold)
+    below, beyond = (one, two) if above[signs[0]] < 0.0 else (two, one)
+    return Change(at, "crossing", (below[0], beyond[0]), (below[1], beyond[1]), False)
+
+
+def _meeting(
+    family: Family, steep: Onsets, other: Onsets, first: int, threshold: float
+) -> tuple[float, Point] | None:
+    """Return parameter and point where a stretch meets another between two of its samples."""
+    per_k = 2.0 * np.pi * family(float(steep.parameter[first])).half_chord
+    rows = zip(steep.parameter, steep.frequency * per_k / steep.speed, steep.speed, strict=True)
+    samples = [(float(s), float(k), float(U)) for s, k, U in rows]
+    ends = (samples[first], samples[first + 1])
+
+    def point(share: float) -> tuple[float, float, float]:
+        found = point_between(family, ends, share, threshold)
+        if found is None:
+            raise ArithmeticError("the curve is lost between two of its points")
+        return found
+
+    def above(share: float) -> float:
+        s, _, U = point(share)
+        return U - other.exact(family, s, threshold)[0]
+
+    try:
+        s, k, U = point(float(brentq(above, 0.0, 1.0, xtol=1e-14)))
+    except NUMERICAL_FAILURES:
+        return None
+    return s, (U, k * U / per_k)
 
 
 def _confirmed(
     family: Family, change: Change, speed_range: tuple[float, float], threshold: float
 ) -> Change:
     """Return the change with the verdict of a search on either side."""
-    sides = (change.parameter * (1.0 - BESIDE), change.parameter * (1.0 + BESIDE))
-    expected = zip(change.speed, change.frequency, strict=True)
-    try:
-        same = [
-            _found(family(at), point, speed_range, threshold)
-            for at, point in zip(sides, expected, strict=True)
-        ]
-    except NUMERICAL_FAILURES:
-        same = [False]
-    return Change(change.parameter, change.kind, change.speed, change.frequency, all(same))
+    expected = list(zip(change.speed, change.frequency, strict=True))
+
+    narrow = (
+        max(speed_range[0], float(np.nanmin(change.speed)) / NARROW),
+        min(speed_range[1], float(np.nanmax(change.speed)) * NARROW),
+    )
+
+    def same(distance: float, speeds: tuple[float, float]) -> bool:
+        sides = (change.parameter * (1.0 - distance), change.parameter * (1.0 + distance))
+        try:
+            return all(
+                _found(family(at), point, speeds, threshold)
+                for at, point in zip(sides, expected, strict=True)
+            )
+        except NUMERICAL_FAILURES:
+            return False
+
+    searches = ((distance, speeds) for speeds in (speed_range, narrow) for distance in BESIDE)
+    return replace(change, confirmed=any(same(*search) for search in searches))
 
 
 def _found(
@@ -247,7 +343,8 @@ def _found(
     speed_range: tuple[float, float],
     threshold: float,
 ) -> bool:
-    point = find_flutter(problem, speed_range, threshold).critical
+    points = find_flutter(problem, speed_range, threshold).points
+    point = next((point for point in points if point.event == "onset"), None)
     if point is None:
         return bool(np.isnan(expected[0]))
     speed, frequency = expected

@@ -46,9 +46,8 @@ def traced(
     low, high = float(ratios[0]), float(ratios[-1])
     step = min(STEP * float(np.median(np.diff(ratios))), LARGEST_STEP * (high - low))
     around = (max(low - BEYOND * step, 0.5 * low), high + BEYOND * step)
-    divergence = np.array([around[0], *ratios, around[1]])
     curves = Tracing(family, Limits(around, speeds), step, threshold).curves(points)
-    diverging = divergence_onsets(family, divergence, speeds[1])
+    diverging = divergence_onsets(family, points, ratios, around)
     stretches = [stretch for curve in curves for stretch in onsets(curve)]
     found = changes(family, [*stretches, *diverging], speeds, threshold)
     return curves, diverging, [change for change in found if low <= change.parameter <= high]
