@@ -7,6 +7,7 @@ The pipeline, in the order in which a wing passes through it:
 `structure`       component modes of the segments, joined at the hinges: natural modes
 `aerodynamics`    unsteady forces on the modes as a function of p = lambda b / U
 `aeroelastic`     both joined: T(p; U) x = 0
+`airfoil`         the typical section, beside the wing
 `simulation`      motions in time, and what can be identified in them
 `stability`       eigenvalues, flutter points, boundaries of any T(p; U)
 `studies`         a case or a grid of cases, to a labelled dataset

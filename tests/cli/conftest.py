@@ -117,5 +117,6 @@ def no_computing(monkeypatch: pytest.MonkeyPatch) -> None:
         "convergence.solve_case",
         "modes.follow_modes",
         "steady.wing_loads",
+        "section.find_flutter",
     ):
         monkeypatch.setattr(f"foldwing.studies.{name}", computed)

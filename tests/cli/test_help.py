@@ -29,6 +29,8 @@ OPTIONS = {
     | OF_AN_AIRCRAFT
     | {"--measured", "--trace", "--jobs", "--clamped"},
     "convergence": OF_A_MODEL | OF_A_SEARCH | {"--vary", "--levels", "--jobs", "--clamped"},
+    "section": {"--plot", "--no-plot", "--out", "--force", "--json"}
+    | {"--torsion", "--speeds", "--max-speed", "--aero", "--damping-threshold"},
 }
 
 

@@ -181,6 +181,7 @@ TABLES = [
     ("flight", table("flight"), {"wing", "tail", "derivatives"}),
     ("flight.wing and flight.tail", Surface, set()),
     ("flight.derivatives", DerivativesTable, set()),
+    ("section", table("section"), set()),
 ]
 
 

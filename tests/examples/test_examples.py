@@ -8,12 +8,19 @@ import numpy as np
 import pytest
 
 from foldwing.cli.main import run
-from foldwing.model import example_names, example_text, measurement_names, read_model
+from foldwing.model import (
+    example_names,
+    example_text,
+    measurement_names,
+    read_model,
+    read_section,
+)
 from foldwing.model.reader import parse_file
 from foldwing.studies.measured import read_measured
 
 ALL = example_names()
 MODELS = [name for name in ALL if parse_file(example_text(name)).wing is not None]
+SECTIONS = [name for name in ALL if parse_file(example_text(name)).section is not None]
 AIRCRAFT = [name for name in MODELS if read_model(name).aircraft is not None]
 WINGS = [name for name in MODELS if name not in AIRCRAFT]
 INCH = 0.0254
@@ -39,7 +46,7 @@ def test_something_is_shipped():
     assert "level-tip-wind-tunnel" in measurement_names()
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", WINGS)
 def test_modes(answer, name):
     modes = answer("modes", name)
     frequencies = modes["natural_frequencies_hz"]
@@ -67,6 +74,15 @@ def test_aircraft_are_certified(answer, name):
     assert aircraft["certified"] is True
     assert aircraft["critical"]["speed"] > aircraft["trim"]["slowest_speed"]
     assert {motion["name"] for motion in aircraft["motions"]} >= {"phugoid"}
+
+
+@pytest.mark.parametrize("name", SECTIONS)
+def test_sections_are_certified(answer, name):
+    section = answer("section", name)
+    assert section["certified"] is True
+    assert section["status"] == "ok"
+    assert {point["kind"] for point in section["flutter_points"]} == {"flutter", "divergence"}
+    assert section["natural_frequency_ratios"] == sorted(section["natural_frequency_ratios"])
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -183,6 +199,36 @@ def test_hale_wing():
     span = float(given("hale", r"span (\d+) m"))
     axis = float(given("hale", r"both at (\d+) % of the chord")) / 100
     assert (section.span, section.elastic_axis, section.mass_centre) == (span, axis, axis)
+
+
+def test_section_with_a_second_mass(answer):
+    section = read_section("airfoil-3dof")
+    air, inertia = (
+        float(given("airfoil-3dof", rf"1/([\d.]+) of the printed {what}"))
+        for what in ("air", "one")
+    )
+    assert (section.mass_ratio, section.inertia_ratio) == pytest.approx((1 / air, 1 / inertia))
+    printed = given("airfoil-3dof", r"at rest ([\d.]+ and [\d.]+);").split(" and ")
+    ours = answer("section", "airfoil-3dof")["natural_frequency_ratios"]
+    assert ours[:2] == pytest.approx([float(text) for text in printed], abs=0.005)
+
+
+def test_section_of_two_degrees_of_freedom_is_the_other_without_its_mass():
+    two, three = read_section("airfoil-2dof"), read_section("airfoil-3dof")
+    fewer = {"title": two.title, "second_mass_ratio": None, "second_frequency_ratio": None}
+    assert three.model_copy(update=fewer) == two
+
+
+def test_section_of_hodges_and_pierce():
+    section = read_section("hodges-pierce")
+    ratio, a, e, r2, sigma = (
+        float(Fraction(given("hodges-pierce", rf"{key} (-?[\d/]+)")))
+        for key in ("mass ratio", "a =", "e =", r"r\^2 =", "omega_theta =")
+    )
+    assert (section.mass_ratio, section.axis_offset) == pytest.approx((ratio, a))
+    assert section.mass_offset == pytest.approx(e - a)
+    assert section.inertia_ratio == pytest.approx(r2)
+    assert section.torsion_frequency_ratio == pytest.approx(1 / sigma)
 
 
 def test_measurements_belong_to_the_level_tip(answer, tmp_path):

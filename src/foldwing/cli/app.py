@@ -337,3 +337,31 @@ def flight(
         trim=trim,
     )
     run_flight(request, Output(plot, out, force, json))
+
+
+@app.command()
+def section(
+    model: options.Model,
+    torsion: options.Torsion = None,
+    speeds: options.SectionSpeeds = None,
+    max_speed: options.SectionMaxSpeed = None,
+    aero: options.SectionAero = "strip",
+    damping_threshold: options.Threshold = None,
+    plot: options.Plot = True,
+    out: options.Out = None,
+    force: options.Force = False,
+    json: options.Json = False,
+) -> None:
+    """Flutter of a typical section of two or three degrees of freedom."""
+    from foldwing.cli.commands import Output
+    from foldwing.cli.section import SectionRequest, run_section
+
+    request = SectionRequest(
+        model,
+        torsion,
+        speeds,
+        max_speed=options.number("--max-speed", max_speed, "30"),
+        aero=aero,
+        damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
+    )
+    run_section(request, Output(plot, out, force, json))

@@ -242,6 +242,7 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
         free_name,
         result_folder,
         write_aircraft_csv,
+        write_changes_csv,
         write_convergence_csv,
         write_csv,
         write_dataset,
@@ -266,6 +267,8 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
         ):
             if variable in dataset:
                 write(dataset, staging)
+        if "change_kind" in dataset:
+            write_changes_csv(dataset, staging / "changes.csv")
         if output.plot:
             from foldwing.plots import write_pictures, write_report
 

@@ -180,6 +180,40 @@ Jobs = Annotated[
         "--jobs", metavar="N", help="Processes to run in parallel, at most one for each core."
     ),
 ]
+SectionAero = Annotated[
+    Literal["strip", "quasi-steady"],
+    typer.Option(
+        "--aero",
+        metavar="NAME",
+        help="strip (Theodorsen's theory) or quasi-steady (for comparison).",
+    ),
+]
+SectionSpeeds = Annotated[
+    str | None,
+    typer.Option(
+        "--speeds",
+        metavar="A:B:STEP",
+        help="Airspeeds of the curves in m/s, or U/(b omega_1) for a section in ratios; the last "
+        "one ends the search.",
+    ),
+]
+SectionMaxSpeed = Annotated[
+    str | None,
+    typer.Option(
+        "--max-speed",
+        metavar="U",
+        help="End of the search, in the same units. (default: 3 x divergence)",
+    ),
+]
+Torsion = Annotated[
+    str | None,
+    typer.Option(
+        "--torsion",
+        metavar="RATIO",
+        help="Torsion over plunge frequency: a number, a range 0.5:8:0.1 or a list 1.5,3.7,7; "
+        "instead of the model's.",
+    ),
+]
 Method = Annotated[
     Literal["sweep", "reference"],
     typer.Option(

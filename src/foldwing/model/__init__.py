@@ -1,4 +1,4 @@
-"""What the user describes: a wing, its parts, its air and how it is analysed.
+"""What the user describes: a wing or a typical section, its air and how it is analysed.
 
 =============  =====================================================================
 Module         Responsibility
@@ -10,6 +10,7 @@ material       materials, section properties of a strip of sheet
 parts, wing    the resolved wing that the physics uses
 aircraft       what the wing belongs to: fuselage, tail, trim
 flight         an aircraft in longitudinal flight: the table and its three forms
+section        the resolved typical section; section_table as it is written
 schema         the tables of a model file as written; JSON schema
 resolve        from the tables to the wing
 library        the models and measurements shipped with the package
@@ -40,10 +41,13 @@ from foldwing.model.reader import (
     parse_file,
     parse_flight,
     parse_model,
+    parse_section,
     read_flight,
     read_model,
+    read_section,
 )
 from foldwing.model.schema import json_schema
+from foldwing.model.section import TypicalSection
 from foldwing.model.wing import Wing
 
 __all__ = [
@@ -65,6 +69,7 @@ __all__ = [
     "StateMatrixModel",
     "Surface",
     "Tail",
+    "TypicalSection",
     "Wing",
     "example_names",
     "example_text",
@@ -75,8 +80,10 @@ __all__ = [
     "parse_file",
     "parse_flight",
     "parse_model",
+    "parse_section",
     "read_flight",
     "read_model",
+    "read_section",
     "strip_inertia",
     "strip_properties",
 ]

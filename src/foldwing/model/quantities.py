@@ -222,6 +222,8 @@ def _unit_factor(unit: str, si_unit: str) -> tuple[float, str]:
         return math.nan, f"{unit!r} is {one.dimensionality}"
     except (pint.PintError, ArithmeticError, AttributeError, TypeError, ValueError):
         return math.nan, f"{unit!r} is not a unit we know"
+    if si_unit == "Hz" and "radian" in dict(one.to_root_units().unit_items()):
+        factor /= 2.0 * math.pi  # to pint a radian is 1, and so would be a cycle
     # Pint takes every dimensionless unit for an angle: five percent is none.
     if si_unit == "rad" and one.to_root_units().units != registry.radian:
         return math.nan, f"{unit!r} is not an angle"
@@ -388,3 +390,11 @@ class Square:
 
 
 StateMatrix = Annotated[tuple[tuple[float, ...], ...], Square(4)]
+Frequency = Annotated[float, Quantity("a frequency", "Hz", '"8 Hz" or "50 rad/s"', _POSITIVE)]
+PlungeStiffness = Annotated[
+    float, Quantity("a stiffness per span", "N/m^2", '"2 kN/m^2"', _POSITIVE)
+]
+TorsionStiffness = Annotated[
+    float, Quantity("a torsion stiffness per span", "N*m/rad/m", '"40 N*m/rad/m"', _POSITIVE)
+]
+Ratio = Annotated[float, Quantity("a ratio", "", "2.5", _POSITIVE)]

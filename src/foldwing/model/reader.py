@@ -9,8 +9,9 @@ from foldwing.model.faults import as_input_error
 from foldwing.model.flight import FlightModel, resolved_flight
 from foldwing.model.library import example_names, example_text
 from foldwing.model.record import suggest
-from foldwing.model.resolve import resolved
+from foldwing.model.resolve import resolved, resolved_section
 from foldwing.model.schema import ModelFile
+from foldwing.model.section import TypicalSection
 from foldwing.model.wing import Wing
 
 _TOML_REMEDY = "Correct the file: each line is a [table], or key = value with text in quotes."
@@ -111,6 +112,27 @@ def parse_flight(text: str, source: str = "MODEL") -> FlightModel:
     if model.flight is None:
         raise model.missing("flight")
     return resolved_flight(model.flight, model.title, model.air)
+
+
+def read_section(source: str | Path) -> TypicalSection:
+    """Return the typical section described by a TOML file or by a shipped example.
+
+    Parameters
+    ----------
+    source : str or Path
+        Path of a model file, or the name of a shipped example.
+
+    Raises
+    ------
+    InputError
+        When the model cannot be read or used, or has no section; it names the field.
+    """
+    return parse_section(model_text(source), str(source))
+
+
+def parse_section(text: str, source: str = "MODEL") -> TypicalSection:
+    """Return the typical section described by TOML text, as `parse_model` does a wing."""
+    return resolved_section(parse_file(text, source))
 
 
 def parse_file(text: str, source: str = "MODEL") -> ModelFile:

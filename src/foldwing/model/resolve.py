@@ -1,4 +1,4 @@
-"""From the tables of a model file to a Wing: materials looked up, sections computed."""
+"""From the tables of a model file to a wing or a typical section: all numbers looked up."""
 
 from dataclasses import dataclass
 
@@ -9,9 +9,14 @@ from foldwing.model.material import Material, strip_inertia, strip_properties
 from foldwing.model.parts import MID_CHORD, Hinge, HingeKind, Segment
 from foldwing.model.record import suggest
 from foldwing.model.schema import AircraftTable, HingeTable, ModelFile, SegmentKeys, WingTable
+from foldwing.model.section import TypicalSection
 from foldwing.model.wing import Wing, in_file
 
 _SHEET = ("bending_stiffness", "torsion_stiffness", "mass_per_span", "inertia_per_span")
+_OF_WINGS = ("material", "point_mass", "lattice")
+_OF_SECTIONS = {"damping", "damping_threshold"}
+"""What of [analysis] a typical section has."""
+
 _EXAMPLES = {"span": '"14 cm"', "chord": '"5 cm"', "thickness": '"1/16 in"', "material": '"sheet"'}
 
 
@@ -97,6 +102,35 @@ def _fuselage_place(
     assert table.centre_of_gravity is not None
     x_cg = quarter_chord(wing.segments[0]) + table.centre_of_gravity
     return x_cg - sum(m * (x - x_cg) for m, x in others) / mass
+
+
+def resolved_section(model: ModelFile) -> TypicalSection:
+    """Return the typical section that a model file describes.
+
+    Raises
+    ------
+    InputError
+        When something is missing or does not fit; it names the field in the file.
+    """
+    section = model.section
+    if section is None:
+        raise model.missing("section")
+    if model.wing is None:
+        _check_no_wing_tables(model)
+        if section.in_ratios and "air" in model.model_fields_set:
+            limit = "a section given in ratios has its air density in mass_ratio"
+            raise InputError("air", model.air.density, limit, "Remove [air].")
+    with as_input_error(("section",)):
+        return section.resolved(model.title, model.air, model.analysis)
+
+
+def _check_no_wing_tables(model: ModelFile) -> None:
+    """Refuse what a section would silently ignore."""
+    unused = [key for key in _OF_WINGS if key in model.model_fields_set]
+    unused += [f"analysis.{key}" for key in sorted(model.analysis.model_fields_set - _OF_SECTIONS)]
+    if unused:
+        limit = "belongs to a wing, and this file has a section alone"
+        raise InputError(unused[0], "a value", limit, f"Remove {unused[0]}.")
 
 
 @dataclass(frozen=True)

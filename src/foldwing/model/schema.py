@@ -32,6 +32,7 @@ from foldwing.model.quantities import (
     TailArm,
 )
 from foldwing.model.record import Record
+from foldwing.model.section_table import SectionTable
 
 HingeForm = Literal["springs", "stiffness", "rigid", "free"]
 
@@ -199,6 +200,7 @@ def _check_place(key: str, wanted: float | None, part: str, x: float | None, exa
 COMMANDS = {
     "wing": "foldwing modes, flutter, boundary, convergence, steady or aircraft",
     "flight": "foldwing flight",
+    "section": "foldwing section",
 }
 """By table that a model file may be about: what works on it."""
 
@@ -215,6 +217,7 @@ class ModelFile(Record):
     analysis: Analysis = Analysis()
     lattice: Lattice = Lattice()
     flight: FlightTable | None = None
+    section: SectionTable | None = None
 
     @model_validator(mode="after")
     def _is_about_something(self) -> Self:

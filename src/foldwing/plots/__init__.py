@@ -16,6 +16,7 @@ A picture is described once (`picture`) and drawn by two renderers.
 `convergence`               airspeeds against the fineness of the computation
 `flight`                    flight paths of a rigid aircraft
 `flight_modes`              its eigenvalues, in the plane and against airspeed
+`section`                   flutter speed and frequency of a section against its torsion frequency
 `catalogue`                 which of these a dataset has
 `layout`, `palette`         what they share: labels, ranges, colours by role
 `branches`, `bodies`        lines against airspeed; centres of mass

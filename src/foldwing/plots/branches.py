@@ -1,7 +1,7 @@
 """Branches against airspeed: their lines, and the events on them; for several pictures."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +12,7 @@ from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import Area, Array, Item, Line, Marks, Note, Range, Rule, padded
 from foldwing.results.aircraft_table import MOTIONS, clamped_rows
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
+from foldwing.results.units import SI, Units, units_of
 
 if TYPE_CHECKING:
     import xarray
@@ -35,6 +36,7 @@ class Branches:
         Flutter points within the airspeeds.
     colors : dict
         Role of each name.
+    units : Units
     """
 
     speed: Array
@@ -43,6 +45,7 @@ class Branches:
     names: tuple[str, ...]
     rows: list[FlutterRow]
     colors: dict[str, str]
+    units: Units = SI
 
     @property
     def limits(self) -> Range:
@@ -54,7 +57,7 @@ class Branches:
         kept = list(places)
         names = tuple(self.names[place] for place in kept)
         growth, frequency = self.growth[:, kept], self.frequency[:, kept]
-        return Branches(self.speed, growth, frequency, names, self.rows, self.colors)
+        return replace(self, growth=growth, frequency=frequency, names=names)
 
     def below(self, highest: float) -> "Branches":
         """Return the branches that come below a frequency in Hz."""
@@ -68,7 +71,7 @@ def branches_of(dataset: "xarray.Dataset") -> Branches:
     growth, frequency = (np.asarray(dataset[n].values[0], float) for n in ("growth", "frequency"))
     names = tuple(str(name) for name in dataset["branch_name"].values)
     rows = _within(flutter_rows(dataset), speed)
-    return Branches(speed, growth, frequency, names, rows, mode_colors(dataset))
+    return Branches(speed, growth, frequency, names, rows, mode_colors(dataset), units_of(dataset))
 
 
 def clamped_branches(dataset: "xarray.Dataset") -> Branches | None:
@@ -105,7 +108,7 @@ def highest_shown(branches: Branches) -> float:
     first = np.sort(frequency[rows_with_values[0]])
     fourth = float(first[min(3, int(np.isfinite(first).sum()) - 1)])
     flutter = max((row.frequency for row in branches.rows), default=0.0)
-    return min(1.05 * float(finite.max()), max(1.25 * fourth, 1.6 * flutter)) or 1.0
+    return min(1.15 * float(finite.max()), max(1.25 * fourth, 1.6 * flutter)) or 1.0
 
 
 def unstable_above(limits: Range, growth_range: Range) -> list[Item]:
@@ -160,14 +163,14 @@ def neutral_marks(branches: Branches) -> list[Marks]:
     """Return marks at zero growth, for the points that are reported there."""
     neutral = [row for row in branches.rows if row.threshold == 0 and row.event != "merger"]
     speeds = [row.speed for row in neutral]
-    return event_marks(neutral, speeds, [0.0] * len(neutral), branches.colors)
+    return event_marks(neutral, speeds, [0.0] * len(neutral), branches.colors, units=branches.units)
 
 
 def frequency_marks(branches: Branches) -> list[Marks]:
     """Return marks of all events at their frequencies."""
     rows = branches.rows
     at = [row.speed for row in rows], [row.frequency for row in rows]
-    return event_marks(rows, *at, branches.colors)
+    return event_marks(rows, *at, branches.colors, units=branches.units)
 
 
 def rule_labels(branches: Branches, y: float, inches: float = PLOT_INCHES) -> list[Note]:
@@ -175,7 +178,7 @@ def rule_labels(branches: Branches, y: float, inches: float = PLOT_INCHES) -> li
     events = [
         (
             row.speed,
-            f"{words(row).partition(' (')[0]} {row.speed:.3g} m/s",
+            f"{words(row).partition(' (')[0]} {row.speed:.3g} {branches.units.speed}",
             color_of(row, branches.colors),
         )
         for row in branches.rows

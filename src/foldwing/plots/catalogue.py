@@ -16,6 +16,7 @@ from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.motions import motions
 from foldwing.plots.picture import Picture
 from foldwing.plots.response import response
+from foldwing.plots.section import section_boundary
 from foldwing.plots.shapes import flutter_films, flutter_phases, mode_shapes
 from foldwing.plots.steady import circulation, circulation_across, circulation_in_space
 from foldwing.plots.trim import trim, trim_against_speed
@@ -50,12 +51,14 @@ PICTURES: "tuple[Callable[[xarray.Dataset], Picture | None], ...]" = (
     flight_against_speed,
     flight_paths,
     flight_paths_relative,
+    section_boundary,
 )
 """Every picture, the most telling first; each gives None for a dataset that lacks its data."""
 
 LEFT_OUT: "Mapping[str, tuple[Callable[[xarray.Dataset], Picture | None], ...]]" = {
     "flutter": (natural_frequencies,),
     "aircraft": (natural_frequencies,),
+    "section": (natural_frequencies,),
 }
 """By kind of dataset, pictures that would say what others say already."""
 

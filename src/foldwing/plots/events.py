@@ -7,6 +7,7 @@ import numpy as np
 
 from foldwing.plots.picture import Marks, Symbol
 from foldwing.results.flutter_table import FlutterRow
+from foldwing.results.units import SI, Units
 from foldwing.stability.status import ELASTIC
 
 _SYMBOLS: dict[tuple[str, str], Symbol] = {
@@ -49,15 +50,15 @@ def color_of(row: FlutterRow, colors: dict[str, str]) -> str:
     return colors.get(row.mode_name, "ink") if row.kind == "flutter" else "divergence"
 
 
-def hover_text(row: FlutterRow) -> str:
+def hover_text(row: FlutterRow, units: Units = SI) -> str:
     """Return all that is known about a point, for hovering."""
-    parts = [f"<b>{words(row)}</b>", f"{row.speed:.4g} m/s"]
+    parts = [f"<b>{words(row)}</b>", f"{row.speed:.4g} {units.speed}"]
     if row.kind == "flutter":
-        parts += [f"{row.frequency:.4g} Hz"]
+        parts += [f"{row.frequency:.4g} {units.frequency}"]
         parts += [f"mode {row.mode_name}"] if row.motion == ELASTIC else []
         parts += [row.classification] if row.classification else []
         if math.isfinite(row.strength):
-            parts.append(f"strength {row.strength:.3g} s/m")
+            parts.append(f"strength {row.strength:.3g} {units.strength}")
     return "<br>".join(parts)
 
 
@@ -67,6 +68,7 @@ def event_marks(
     y: Sequence[float],
     colors: dict[str, str],
     by_mode: bool = False,
+    units: Units = SI,
 ) -> list[Marks]:
     """Return the marks of flutter points at (x, y), one group for each entry of the legend.
 
@@ -79,6 +81,8 @@ def event_marks(
         Colour role of each mode name.
     by_mode : bool
         Whether the legend names the modes.
+    units : Units
+        Of the rows, for hovering.
     """
     groups: dict[tuple[str, str, str, str], list[int]] = {}
     for index, row in enumerate(rows):
@@ -95,7 +99,7 @@ def event_marks(
             color,
             label,
             6.5,
-            [hover_text(rows[index]) for index in members],
+            [hover_text(rows[index], units) for index in members],
         )
         for (kind, event, label, color), members in sorted(groups.items(), key=_legend_order)
     ]

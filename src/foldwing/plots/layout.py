@@ -88,6 +88,8 @@ def dash_of(name: str) -> Dash:
     """
     motions: Mapping[str, Dash] = {"phugoid": "dashdot", "short period": "longdash"}
     families: Mapping[str, Dash] = {"T": "dash", "D": "dot"}
+    if name == "pitch":
+        return families["T"]
     return motions.get(name) or families.get(name[:1], "solid")
 
 
@@ -167,7 +169,9 @@ def subtitle(dataset: "xarray.Dataset", *more: str) -> str:
 
 
 def subject(dataset: "xarray.Dataset") -> str:
-    """Return what the dataset is about: ``wing`` or ``aircraft``."""
+    """Return what the dataset is about: ``wing``, ``aircraft`` or ``section``."""
+    if dataset.attrs["kind"] == "section":
+        return "section"
     bodies = dataset["body"].values.tolist() if "body" in dataset.coords else []
     return "aircraft" if "slowest_speed" in dataset or "aircraft" in bodies else "wing"
 

@@ -73,7 +73,8 @@ def against_speed(dataset: "xarray.Dataset") -> Picture | None:
         *resolved,
         *frequency_marks(shown),
     ]
-    label, what = "airspeed (m/s)", subject(dataset)
+    what, units = subject(dataset), shown.units
+    label = units.speed_label
     return Picture(
         "growth-and-frequency",
         f"How the motions of the {what} grow or decay as the airspeed rises",
@@ -83,10 +84,10 @@ def against_speed(dataset: "xarray.Dataset") -> Picture | None:
         + reach_words(dataset)
         + neutral_words(dataset),
         [
-            Panel(label, "growth rate (1/s)", upper, limits, growth_range, height=1.1),
-            Panel(label, "frequency (Hz)", lower, limits, hertz, height=1.1),
+            Panel(label, units.growth_label, upper, limits, growth_range, height=1.1),
+            Panel(label, units.frequency_label, lower, limits, hertz, height=1.1),
         ],
-        right_margin=0.6 if what == "wing" else 1.05,
+        right_margin={"wing": 0.6, "section": 0.85}.get(what, 1.05),
     )
 
 
@@ -114,6 +115,7 @@ def root_locus(dataset: "xarray.Dataset") -> Picture | None:
     tint = Area(
         np.array([0.0, x_range[1], x_range[1], 0.0]), np.repeat(y_range, 2), "unstable", 0.1
     )
+    units = shown.units
     items: list[Item] = [tint, Rule(0.0, "x", "ink", width=1.2)]
     items += _paths(shown)
     items += _path_ends(shown, x_range, top)
@@ -129,7 +131,7 @@ def root_locus(dataset: "xarray.Dataset") -> Picture | None:
         "from the lowest airspeed (blue) to the highest (orange)."
         + _locus_words(dataset)
         + neutral_words(dataset),
-        [Panel("growth rate (1/s)", "frequency (Hz)", items, x_range, y_range, height=1.8)],
+        [Panel(units.growth_label, units.frequency_label, items, x_range, y_range, height=1.8)],
     )
 
 
@@ -157,7 +159,7 @@ def _paths(shown: Branches) -> list[Item]:
         x, y = shown.growth[:, branch], shown.frequency[:, branch]
         if not np.isfinite(x).any():
             continue
-        items.append(Graded(x, y, speed, limits, "airspeed (m/s)", name))
+        items.append(Graded(x, y, speed, limits, shown.units.speed_label, name))
         if name in MOTIONS:
             label = f"{name} (thin line)"
             items.append(Line(x, y, "ink", dash_of(name), 1.0, name=name, label=label))
@@ -197,4 +199,5 @@ def _apart(notes: list[Note], gap: float) -> list[Note]:
 def _crossing_marks(shown: Branches) -> list[Marks]:
     rows = [row for row in shown.rows if row.threshold == 0 and row.event != "merger"]
     zero = [0.0] * len(rows)
-    return event_marks(rows, zero, [row.frequency for row in rows], shown.colors)
+    frequency = [row.frequency for row in rows]
+    return event_marks(rows, zero, frequency, shown.colors, units=shown.units)

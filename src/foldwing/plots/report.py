@@ -25,6 +25,7 @@ from foldwing.results.flight_table import (
 )
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
+from foldwing.results.section_table import changes_table, section_points_table
 from foldwing.results.steady_table import legend, loads_table, segments_table
 from foldwing.results.summary import answer, certificate, degrees, fold_text, warnings
 from foldwing.stability.status import ELASTIC
@@ -164,6 +165,8 @@ def _table(dataset: "xarray.Dataset") -> list[str]:
         return []
     if dataset.attrs["kind"] == "steady":
         return _loads(dataset)
+    if dataset.attrs["kind"] == "section":
+        return _section_tables(dataset)
     if dataset.attrs["kind"] == "flight":
         return _flight(dataset)
     return [*_points(dataset), *_aircraft(dataset)]
@@ -234,6 +237,17 @@ def _flight(dataset: "xarray.Dataset") -> list[str]:
         f'<h2>{title}</h2><div class="scroll">{_html(*table)}</div>' for title, table in tables
     ]
     return [*parts, f'<p class="small">{html.escape(trim_text(dataset))}</p>']
+
+
+def _section_tables(dataset: "xarray.Dataset") -> list[str]:
+    """Return the flutter points of a section, and where the lowest onset changes."""
+    points, changes = section_points_table(dataset), changes_table(dataset)
+    parts = ["<h2>Flutter points</h2>"]
+    parts.append(f'<div class="scroll">{_html(*points)}</div>' if points.rows else "<p>None.</p>")
+    if changes.rows:
+        parts.append("<h2>Where the lowest onset goes over to another curve</h2>")
+        parts.append(f'<div class="scroll">{_html(*changes)}</div>')
+    return parts
 
 
 _COLUMNS = ("what happens", "speed (m/s)", "frequency (Hz)", "mode", "class", "strength (s/m)")

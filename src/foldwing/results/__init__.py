@@ -12,6 +12,8 @@
 `flight_table`       tables of the flight of a rigid aircraft
 `aircraft_table`     tables of a flexible aircraft: trim, motions, its wing clamped
 `flight_summary`     the answer of a flight in one line
+`section_table`      tables of a typical section; `changes` in words
+`units`              SI, or the ratios of a section without scales
 `folders`            result folders: whole or not at all, never over something else
 ===================  ==========================================================================
 """
@@ -22,6 +24,7 @@ from foldwing.results.flutter_table import FlutterRow, flutter_rows, table_varia
 from foldwing.results.folders import check_writable, default_folder, free_name, result_folder
 from foldwing.results.provenance import Source, model_hash, package_version, provenance
 from foldwing.results.schema import build_dataset, fold_angle_names
+from foldwing.results.section_table import write_changes_csv
 from foldwing.results.steady_table import write_steady_csv
 from foldwing.results.summary import answer, certificate
 from foldwing.results.variables import VARIABLES
@@ -54,6 +57,7 @@ __all__ = [
     "result_folder",
     "table_variables",
     "write_aircraft_csv",
+    "write_changes_csv",
     "write_convergence_csv",
     "write_csv",
     "write_dataset",

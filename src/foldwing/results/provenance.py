@@ -58,7 +58,8 @@ def provenance(
     title : str
         Title of the model.
     kind : str
-        ``modes``, ``flutter``, ``boundary``, ``convergence``, ``steady`` or ``flight``.
+        ``modes``, ``flutter``, ``boundary``, ``convergence``, ``steady``, ``aircraft``,
+        ``flight`` or ``section``.
     model_text : str
         The model file as it was read.
     method : str

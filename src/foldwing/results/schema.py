@@ -13,7 +13,7 @@ from foldwing.stability.status import Status
 if TYPE_CHECKING:
     import xarray
 
-KINDS = ("modes", "flutter", "boundary", "convergence", "steady", "aircraft", "flight")
+KINDS = ("modes", "flutter", "boundary", "convergence", "steady", "aircraft", "flight", "section")
 """What a dataset can hold; its attribute ``kind`` is one of these."""
 
 REQUIRED_ATTRIBUTES = (
@@ -47,6 +47,12 @@ def fold_angle_names(dataset: "xarray.Dataset") -> list[str]:
     """Return ``fold_2``, ``fold_3``, ... of a dataset, in the order of the hinges."""
     names = [str(name) for name in dataset.coords if is_fold_angle(str(name))]
     return sorted(names, key=lambda name: int(name.removeprefix("fold_")))
+
+
+def case_names(dataset: "xarray.Dataset") -> list[str]:
+    """Return the coordinates that tell cases apart: fold angles, or a torsion frequency ratio."""
+    others = [name for name in ("torsion_frequency_ratio",) if name in dataset.coords]
+    return [*fold_angle_names(dataset), *others]
 
 
 def build_dataset(variables: Values, coords: Values, attrs: Mapping[str, Any]) -> "xarray.Dataset":

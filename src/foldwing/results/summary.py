@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from foldwing.results.changes import changes_text
 from foldwing.results.convergence_table import convergence_answer
 from foldwing.results.flight_summary import flight_answer
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
+from foldwing.results.units import SI, Units, units_of
 from foldwing.stability.status import Status
 
 if TYPE_CHECKING:
@@ -75,6 +77,8 @@ def critical_row(rows: Sequence[FlutterRow]) -> FlutterRow | None:
 def fold_text(dataset: "xarray.Dataset", case: int) -> str:
     """Return the fold angles of a case, e.g. ``fold 30°, −30°``; empty without hinges."""
     angles = [float(dataset[name][case]) for name in fold_angle_names(dataset)]
+    if "torsion_frequency_ratio" in dataset.coords:
+        return f"torsion frequency ratio {float(dataset['torsion_frequency_ratio'][case]):.4g}"
     if not angles:
         return "" if dataset.sizes["fold"] == 1 else f"case {case}"
     return "fold " + ", ".join(degrees(angle) for angle in angles)
@@ -127,8 +131,9 @@ def _flutter_answer(dataset: "xarray.Dataset") -> str:
         kind: critical_row([row for row in rows if row.kind == kind])
         for kind in ("flutter", "divergence")
     }
-    parts = [_onset(row, rows) for row in first.values() if row is not None]
-    again = _onset_after_hump(first["flutter"], rows)
+    units = units_of(dataset)
+    parts = [_onset(row, rows, units) for row in first.values() if row is not None]
+    again = _onset_after_hump(first["flutter"], rows, units)
     if again is not None:
         parts.insert(1, again)
     already = _unstable_from_start(dataset)
@@ -163,12 +168,13 @@ def _unstable_from_start(dataset: "xarray.Dataset") -> str:
     if not already.any():
         return ""
     lowest = float(dataset.attrs.get("speed_floor", np.nanmax(dataset["valid_from"].values)))
+    unit = units_of(dataset).speed
     if dataset.sizes["fold"] > 1:
         who = f"{int(already.sum())} of {already.size} cases are"
-        return f"{who} beyond the boundary from the lowest airspeed, {lowest:.3g} m/s, on. "
+        return f"{who} beyond the boundary from the lowest airspeed, {lowest:.3g} {unit}, on. "
     count = int(_elastic_from_start(dataset)[0])
     roots = "1 root is" if count == 1 else f"{count} roots are"
-    return f"{roots} beyond the boundary from the lowest airspeed, {lowest:.3g} m/s, on. "
+    return f"{roots} beyond the boundary from the lowest airspeed, {lowest:.3g} {unit}, on. "
 
 
 def _elastic_from_start(dataset: "xarray.Dataset") -> "np.ndarray[tuple[int], np.dtype[np.int64]]":
@@ -186,10 +192,13 @@ def _boundary_answer(dataset: "xarray.Dataset") -> str:
     total = dataset.sizes["fold"]
     if row is None:
         return _nothing_found(dataset)
-    what = f"mode {row.mode_name} at {row.frequency:.3g} Hz" if row.kind == "flutter" else ""
+    units = units_of(dataset)
+    hertz = f"{row.frequency:.3g} {units.frequency}"
+    what = f"mode {row.mode_name} at {hertz}" if row.kind == "flutter" else ""
     detail = _listed(row.kind, fold_text(dataset, row.case), what)
-    where = f"in {total} cases is {row.speed:.3g} m/s ({detail})"
-    return f"{_unstable_from_start(dataset)}The lowest speed of instability {where}."
+    where = f"in {total} cases is {row.speed:.3g} {units.speed} ({detail})"
+    text = f"{_unstable_from_start(dataset)}The lowest speed of instability {where}."
+    return text + changes_text(dataset)
 
 
 def _nothing_found(dataset: "xarray.Dataset") -> str:
@@ -211,20 +220,23 @@ def _listed(*parts: str) -> str:
     return ", ".join(filter(None, parts))
 
 
-def _onset(row: FlutterRow, rows: Sequence[FlutterRow]) -> str:
+def _onset(row: FlutterRow, rows: Sequence[FlutterRow], units: Units = SI) -> str:
+    at = f"{row.speed:.3g} {units.speed}"
     if row.kind == "divergence":
-        return f"divergence begins at {row.speed:.3g} m/s"
-    begin = f"flutter begins at {row.speed:.3g} m/s with {row.frequency:.3g} Hz"
+        return f"divergence begins at {at}"
+    begin = f"flutter begins at {at} with {row.frequency:.3g} {units.frequency}"
     text = f"{begin} (mode {row.mode_name}"
     end = [
         other.speed
         for other in rows
         if other.event == "recovery" and other.branch == row.branch and other.speed > row.speed
     ]
-    return f"{text}, a hump that ends at {min(end):.3g} m/s)" if end else f"{text})"
+    return f"{text}, a hump that ends at {min(end):.3g} {units.speed})" if end else f"{text})"
 
 
-def _onset_after_hump(first: FlutterRow | None, rows: Sequence[FlutterRow]) -> str | None:
+def _onset_after_hump(
+    first: FlutterRow | None, rows: Sequence[FlutterRow], units: Units = SI
+) -> str | None:
     """Return where flutter begins next when the first one is a hump, and no motion flutters."""
     if first is None or first.classification != "hump":
         return None
@@ -234,7 +246,7 @@ def _onset_after_hump(first: FlutterRow | None, rows: Sequence[FlutterRow]) -> s
         if row.kind == "flutter" and row.event == "onset" and row.speed > first.speed
     ]
     return (
-        f"flutter again from {later[0].speed:.3g} m/s (mode {later[0].mode_name})"
+        f"flutter again from {later[0].speed:.3g} {units.speed} (mode {later[0].mode_name})"
         if later
         else None
     )
@@ -242,7 +254,7 @@ def _onset_after_hump(first: FlutterRow | None, rows: Sequence[FlutterRow]) -> s
 
 def _limit(dataset: "xarray.Dataset") -> str:
     if "speed_limit" in dataset.attrs:
-        return f" up to {float(dataset.attrs['speed_limit']):.3g} m/s"
+        return f" up to {float(dataset.attrs['speed_limit']):.3g} {units_of(dataset).speed}"
     if "speed" in dataset.coords and dataset.sizes["speed"]:
         return f" up to {float(dataset['speed'][-1]):.3g} m/s"
     return ""
@@ -258,7 +270,7 @@ def _validity(dataset: "xarray.Dataset") -> str:
         return ""
     if lowest.max() > float(dataset.attrs.get("speed_limit", np.inf)):
         return f" among the modes resolved (all of them only from {lowest.max():.3g} m/s on)"
-    return f", from {lowest.max():.3g} m/s on"
+    return f", from {lowest.max():.3g} {units_of(dataset).speed} on"
 
 
 def response(dataset: "xarray.Dataset") -> str:

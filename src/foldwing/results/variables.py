@@ -103,6 +103,10 @@ _COORDINATES = (
     variable("equation", ("equation",), "", "state whose rate a row of the matrix gives", "text"),
     variable("flight_motion", ("flight_motion",), "1", "motion of the four states", "integer"),
     variable("path_sample", ("path_sample",), "1", "sample of a flight path", "integer"),
+    variable("torsion_frequency_ratio", FOLD, "1", "frequency of pitch over that of plunge"),
+    variable("change", ("change",), "1", "change of the lowest onset, by torsion", "integer"),
+    variable("side", ("side",), "", "below or above the torsion frequency of a change", "text"),
+    variable("crossing", ("crossing",), "1", "plunge mode whose frequency pitch meets", "integer"),
 )
 
 _MODES = (
@@ -327,6 +331,23 @@ _FLIGHT = (
     variable("path_pitch", _PATH, "degree", "change of the pitch angle, nose up"),
 )
 
+_CHANGE: Dims = ("change",)
+_AT_CHANGE: Dims = ("change", "side")
+
+_SECTION = (
+    variable("speed_ratio", _TABLE, "1", "airspeed over half chord and plunge frequency"),
+    variable("frequency_ratio", _TABLE, "1", "frequency over that of plunge"),
+    variable("curve_torsion_ratio", _CURVE, "1", "torsion frequency ratio along the curve"),
+    variable("change_torsion_ratio", _CHANGE, "1", "where the lowest onset changes its curve"),
+    variable("change_kind", _CHANGE, "", "jump or crossing", "text"),
+    variable("change_speed", _AT_CHANGE, "m/s", "lowest onset on both sides"),
+    variable("change_frequency", _AT_CHANGE, "Hz", "its frequency on both sides"),
+    variable("change_confirmed", _CHANGE, "", "found again by searches on both sides", "truth"),
+    variable(
+        "crossing_torsion_ratio", ("crossing",), "1", "where pitch and plunge alone are in tune"
+    ),
+)
+
 VARIABLES: Mapping[str, Variable] = {
     row.name: row
     for row in (
@@ -340,6 +361,7 @@ VARIABLES: Mapping[str, Variable] = {
         *_STEADY,
         *_AIRCRAFT,
         *_FLIGHT,
+        *_SECTION,
     )
 }
 """Every variable a dataset may hold."""

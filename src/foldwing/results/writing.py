@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.results.flutter_table import flutter_rows
-from foldwing.results.schema import fold_angle_names
+from foldwing.results.schema import case_names
 from foldwing.results.variables import COORDINATES, VARIABLES
 
 if TYPE_CHECKING:
@@ -51,17 +51,23 @@ def read_dataset(path: Path) -> "xarray.Dataset":
 
 def write_csv(dataset: "xarray.Dataset", path: Path) -> None:
     """Write the table of flutter points; numbers in full precision, empty for nan."""
-    angles = fold_angle_names(dataset)
+    named = case_names(dataset)
+    ratios = [name for name in ("speed_ratio", "frequency_ratio") if name in dataset]
     body = (
-        (row.case, *row.fold, *(_field(row, column) for column in POINT_COLUMNS))
-        for row in flutter_rows(dataset)
+        (
+            row.case,
+            *(float(dataset[name][row.case]) for name in named),
+            *(_field(row, column) for column in POINT_COLUMNS),
+            *(float(dataset[name][point]) for name in ratios),
+        )
+        for point, row in enumerate(flutter_rows(dataset))
     )
-    write_table(path, ("case", *angles, *POINT_COLUMNS), body)
+    write_table(path, ("case", *named, *POINT_COLUMNS, *ratios), body)
 
 
 def write_frequencies_csv(dataset: "xarray.Dataset", path: Path) -> None:
     """Write the natural frequencies: one line for each case and mode."""
-    angles = fold_angle_names(dataset)
+    angles = case_names(dataset)
     columns = [
         name
         for name in ("mode_name", "natural_frequency", "mode_confidence", "bending_share")

@@ -58,8 +58,8 @@ class BoundaryCurve:
         k and U in m/s.
     strength : array, shape (m,)
         d(Re lambda / Im lambda)/dU in s/m; passes zero where the curve turns back.
-    turning : tuple of float
-        Values of s at which the curve turns back.
+    turns : tuple of (float, float, float)
+        s, k and U where the curve turns back, in the order of the curve.
     end : str
         Why it ended: ``parameter`` or ``speed`` left its range, ``zero frequency``, ``closed``,
         ``lost``, or ``length`` (as many points as allowed).
@@ -69,8 +69,13 @@ class BoundaryCurve:
     reduced_frequency: Real
     speed: Real
     strength: Real
-    turning: tuple[float, ...]
+    turns: tuple[tuple[float, float, float], ...]
     end: str
+
+    @property
+    def turning(self) -> tuple[float, ...]:
+        """Values of s at which the curve turns back."""
+        return tuple(s for s, _, _ in self.turns)
 
 
 @dataclass(frozen=True)
@@ -125,6 +130,41 @@ def follow_boundary(
     ahead = np.array([0.0, 0.0, np.sign(first_step)])
     points, tangents, end = _followed(equation, at, ahead, limits)
     return _curve(equation, np.array(points), np.array(tangents), end)
+
+
+def point_between(
+    family: Family,
+    ends: tuple[tuple[float, float, float], tuple[float, float, float]],
+    share: float,
+    threshold: float = 0.0,
+) -> tuple[float, float, float] | None:
+    """Return s, k and U of the curve between two of its points, across their chord.
+
+    Well conditioned also where the curve is steep in s, or turns back.
+
+    Parameters
+    ----------
+    family : callable
+        Returns the system at a value of s.
+    ends : pair of (float, float, float)
+        s, k and U of two points of the curve, close to each other.
+    share : float
+        Part of the way along the chord, 0 to 1.
+    threshold : float
+        Damping ratio of the boundary, positive stable.
+
+    Returns
+    -------
+    tuple of float, or None
+        None when the iteration does not converge.
+    """
+    equation = _Equation(family, abs(ends[1][0] - ends[0][0]), 1j - threshold)
+    start, end = (np.array([np.log(k), np.log(U), s / equation.scale]) for s, k, U in ends)
+    chord = end - start
+    found = equation.corrected(start + share * chord, chord / np.linalg.norm(chord))
+    if found is None:
+        return None
+    return float(found[2] * equation.scale), float(np.exp(found[0])), float(np.exp(found[1]))
 
 
 @dataclass(frozen=True)
@@ -250,13 +290,13 @@ def _curve(equation: _Equation, points: Real, tangents: Real, end: str) -> Bound
         reduced_frequency=np.exp(points[:, 0]),
         speed=np.exp(points[:, 1]),
         strength=np.array([equation.strength(v) for v in points]),
-        turning=tuple(_turning_point(equation, points[i : i + 2], tangents[i]) for i in turns),
+        turns=tuple(_turning_point(equation, points[i : i + 2], tangents[i]) for i in turns),
         end=end,
     )
 
 
-def _turning_point(equation: _Equation, ends: Real, tangent: Real) -> float:
-    """Return the parameter at which the curve turns back between two of its points."""
+def _turning_point(equation: _Equation, ends: Real, tangent: Real) -> tuple[float, float, float]:
+    """Return s, k and U where the curve turns back between two of its points."""
     start, length = ends[0], float((ends[1] - ends[0]) @ tangent)
 
     def at(length: float) -> Real:
@@ -267,4 +307,5 @@ def _turning_point(equation: _Equation, ends: Real, tangent: Real) -> float:
         return float(equation.tangent(at(length), tangent)[2])
 
     top = brentq(direction, 0.0, length, xtol=1e-6 * length)
-    return float(at(top)[2] * equation.scale)
+    log_k, log_U, s = at(top)
+    return float(s * equation.scale), float(np.exp(log_k)), float(np.exp(log_U))

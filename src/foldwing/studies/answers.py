@@ -12,12 +12,15 @@ from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
 from foldwing.results.steady_table import PER_SEGMENT, WHOLE
 from foldwing.results.summary import critical_row
+from foldwing.results.units import RATIOS, units_of
 from foldwing.stability.status import ELASTIC, Status
 from foldwing.structure.modes import StructuralModes
 from foldwing.studies.aircraft import AircraftStudy
 from foldwing.studies.boundary import Boundary, Outcome
 from foldwing.studies.case import Case
 from foldwing.studies.convergence import ConvergenceStudy
+from foldwing.studies.lowest import Change
+from foldwing.studies.section import SectionOutcome, SectionStudy
 from foldwing.studies.steady import SteadyStudy
 
 if TYPE_CHECKING:
@@ -204,6 +207,86 @@ def _loads(loads: WingLoads) -> Answer:
             for segment in loads.segments
         ],
     }
+
+
+def section_answer(study: SectionStudy) -> Answer:
+    """Return the flutter points of a section; of a sweep every case, and where the lowest changes.
+
+    Airspeeds and frequencies as ratios, and in m/s and Hz when the section has scales.
+    """
+    dataset = study.dataset
+    rows = [_with_ratios(dataset, point, row) for point, row in enumerate(flutter_rows(dataset))]
+    owners = dataset["case"].values.tolist()
+    cases = [
+        _section_case(
+            study, index, [row for row, own in zip(rows, owners, strict=True) if own == index]
+        )
+        for index in range(len(study.outcomes))
+    ]
+    if "swept" not in dataset.attrs:
+        return cases[0]
+    crossings = [float(ratio) for ratio in dataset["crossing_torsion_ratio"].values]
+    changes = [_change(study, change) for change in study.changes]
+    return {"cases": cases, "changes": changes, "crossing_torsion_ratios": crossings}
+
+
+def _section_case(study: SectionStudy, index: int, points: list[Answer]) -> Answer:
+    outcome: SectionOutcome = study.outcomes[index]
+    answer: Answer = {"torsion_frequency_ratio": float(outcome.ratio)}
+    if outcome.case is None:
+        return answer | {
+            "natural_frequency_ratios": [],
+            "mode_names": [],
+            "flutter_points": [],
+            "critical": None,
+            "certified": False,
+            "unstable_from_start": None,
+            "status": outcome.status.meaning,
+            "message": outcome.message,
+        }
+    analysis, critical = outcome.case.analysis, outcome.case.analysis.critical
+    already = analysis.unstable_from_start
+    return answer | {
+        "natural_frequency_ratios": [
+            _number(ratio) for ratio in outcome.case.system.frequency_ratios
+        ],
+        "mode_names": list(outcome.case.system.mode_names),
+        "flutter_points": points,
+        "critical": None if critical is None else points[analysis.points.index(critical)],
+        "certified": analysis.certified,
+        "unstable_from_start": None if already < 0 else already,
+        "status": outcome.status.meaning,
+    }
+
+
+def _with_ratios(dataset: "xarray.Dataset", point: int, row: FlutterRow) -> Answer:
+    """Return a flutter point of a section; m/s, Hz and s/m are null without scales."""
+    answer = _point(row)
+    if units_of(dataset) is RATIOS:
+        answer |= {"speed": None, "frequency": None, "strength": None}
+    names = ("speed_ratio", "frequency_ratio")
+    return answer | {name: _number(float(dataset[name][point])) for name in names}
+
+
+def _change(study: SectionStudy, change: Change) -> Answer:
+    """Return a change of the lowest onset, its two sides in ratios, and in m/s and Hz."""
+    case = next(outcome.case for outcome in study.outcomes if outcome.case is not None)
+    section = case.section
+    per_speed, per_frequency = section.speed_unit, 1.0
+    answer: Answer = {
+        "torsion_frequency_ratio": change.parameter,
+        "kind": change.kind,
+        "confirmed": change.confirmed,
+    }
+    if section.plunge_frequency is not None:
+        per_frequency = section.plunge_frequency
+        answer["speed"] = [_number(value) for value in change.speed]
+        answer["frequency"] = [_number(value) for value in change.frequency]
+    else:
+        answer |= {"speed": None, "frequency": None}
+    answer["speed_ratio"] = [_number(value / per_speed) for value in change.speed]
+    answer["frequency_ratio"] = [_number(value / per_frequency) for value in change.frequency]
+    return answer
 
 
 def _case(outcome: Outcome) -> Answer:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -173,7 +173,27 @@ def _resolved_range(
     return start, fast
 
 
-def verdict_variables(cases: Sequence[Case | None]) -> dict[str, Any]:
+class Solved(Protocol):
+    """A case with a result, of a wing or of anything else."""
+
+    @property
+    def analysis(self) -> FlutterAnalysis:
+        """All its flutter points."""
+
+    @property
+    def uncertified_modes(self) -> tuple[str, ...]:
+        """Modes that are not resolved at the lowest airspeeds."""
+
+    @property
+    def unstable_motions(self) -> tuple[str, ...]:
+        """Oscillations of an aircraft beyond the boundary at the lowest airspeed already."""
+
+    @property
+    def status(self) -> Status:
+        """How the case ended."""
+
+
+def verdict_variables(cases: Sequence[Solved | None]) -> dict[str, Any]:
     """Return what is known of each case as a whole, as dataset variables; None for a failed one."""
     fold = ("fold",)
     status = [Status.FAILED if case is None else case.status for case in cases]

@@ -154,18 +154,18 @@ def radians(folds: Sequence[float]) -> tuple[float, ...]:
     return tuple(math.radians(angle) for angle in folds)
 
 
-def parse_speeds(text: str) -> Real:
-    """Return airspeeds in m/s, ascending and not negative.
+def parse_speeds(text: str, unit: str = "m/s") -> Real:
+    """Return airspeeds in m/s, or another unit, ascending and not negative.
 
     Raises
     ------
     InputError
         When a speed is negative, they do not ascend, or none is above zero.
     """
-    remedy = "Write start:stop:step in m/s from 0 upwards, such as 0:60:1."
+    remedy = f"Write start:stop:step in {unit} from 0 upwards, such as 0:60:1."
     speeds = parse_range(text, "--speeds", remedy)
     if list(speeds) != sorted(speeds):
         raise InputError("--speeds", text, "must ascend", remedy)
     if speeds[0] < 0.0 or speeds[-1] <= 0.0:
-        raise InputError("--speeds", text, "must not be negative or only 0 m/s", remedy)
+        raise InputError("--speeds", text, f"must not be negative or only 0 {unit}", remedy)
     return np.array(speeds)

@@ -10,6 +10,7 @@ from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
 from foldwing.stability.crossings import divergence_speeds
 from foldwing.stability.flutter import FlutterAnalysis
+from foldwing.stability.problem import AeroelasticProblem
 
 LOWEST_FRACTION = 1.0 / 150.0
 """Lowest airspeed of the search as a fraction of its end, at most of the end that is automatic."""
@@ -48,11 +49,11 @@ def speed_range(model: AeroelasticWing, highest: float | None = None) -> tuple[f
     return min(top, automatic) * LOWEST_FRACTION, top
 
 
-def check_highest(highest: float | None) -> None:
+def check_highest(highest: float | None, unit: str = "m/s") -> None:
     """Raise `InputError` unless the end of the search is left open or is an airspeed."""
     if highest is not None and not LEAST_SPEED <= highest <= MOST_SPEED:
-        remedy = "Give the highest airspeed of the search in m/s, such as 60."
-        limit = f"must be {LEAST_SPEED:g} to {MOST_SPEED:g} m/s"
+        remedy = f"Give the highest airspeed of the search in {unit}, such as 60."
+        limit = f"must be {LEAST_SPEED:g} to {MOST_SPEED:g} {unit}"
         raise InputError("--max-speed", highest, limit, remedy)
 
 
@@ -64,8 +65,20 @@ def _automatic(model: AeroelasticWing) -> float:
         limit = "the modes kept must include one that is not a rigid motion"
         remedy = "Keep more modes, or give --max-speed."
         raise InputError("analysis.system_modes", modes.count, limit, remedy)
-    slowest = _rounded_up(omega * model.wing.segments[0].half_chord / SLOW_MODES)
-    divergence = divergence_speeds(model.system(modes))
+    return automatic_end(model.system(modes), omega)
+
+
+def automatic_end(problem: AeroelasticProblem, torsion_frequency: float) -> float:
+    """Return the highest airspeed of a search in m/s when the user names none.
+
+    Parameters
+    ----------
+    problem : AeroelasticProblem
+    torsion_frequency : float
+        Of the lowest torsion mode in rad/s.
+    """
+    slowest = _rounded_up(torsion_frequency * problem.half_chord / SLOW_MODES)
+    divergence = divergence_speeds(problem)
     divergence = divergence[TIMES_DIVERGENCE * divergence < TIMES_SLOWEST * slowest]
     if len(divergence):
         return _rounded_up(TIMES_DIVERGENCE * float(divergence[0]))

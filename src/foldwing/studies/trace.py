@@ -14,6 +14,7 @@ from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
 from foldwing.results.schema import build_dataset
 from foldwing.stability.continuation import BoundaryCurve, Limits, follow_boundary
+from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.status import FlutterPoint
 from foldwing.studies.boundary import Boundary
 from foldwing.studies.case import Case
@@ -37,18 +38,19 @@ class TracedCurve:
     Attributes
     ----------
     fold : array, shape (m,)
-        Angle of the swept hinge in degrees along the curve, not always ascending.
+        Angle of the swept hinge in degrees along the curve, or another parameter; not always
+        ascending.
     speed, frequency, strength : array, shape (m,)
         In m/s, Hz and s/m.
-    turning : tuple of float
-        Angles at which the curve turns back: there an onset and a recovery meet.
+    turns : tuple of (float, float, float)
+        Angle, speed and frequency where the curve turns back: there an onset and a recovery meet.
     """
 
     fold: Real
     speed: Real
     frequency: Real
     strength: Real
-    turning: tuple[float, ...]
+    turns: tuple[tuple[float, float, float], ...]
 
     def passes(self, fold: float, speed: float, frequency: float, step: float) -> bool:
         """Return whether the curve passes a flutter point.
@@ -98,33 +100,92 @@ def trace_boundary(
     progress : callable
         Called with the number of flutter points that lie on a curve already.
     """
-    family = _family(model, cases, hinge)
     angles = [case.folds[hinge - 2] for case in cases]
-    limits = Limits((min(angles), max(angles)), cases[0].analysis.speed_range)
-    step = min(float(np.median(np.diff(angles))), LARGEST_STEP)
-    left = [
-        (angle, case, point)
+    points = [
+        (angle, point)
         for angle, case in zip(angles, cases, strict=True)
         for point in case.analysis.points
-        if point.kind == "flutter"
     ]
-    total = len(left)
-    curves: list[TracedCurve] = []
-    while left:
-        angle, case, point = left.pop(len(left) // 2)
-        try:
-            curve = _both_ways(family, angle, (case, point), step, limits)
-        except NUMERICAL_FAILURES:
-            continue
-        if not curve.repeats(curves, step):
-            curves.append(curve)
-        left = [
-            (fold, case, point)
-            for fold, case, point in left
-            if not curve.passes(fold, point.speed, point.frequency, step)
-        ]
-        progress(total - len(left))
-    return curves
+    tracing = Tracing(
+        _family(model, cases, hinge),
+        Limits((min(angles), max(angles)), cases[0].analysis.speed_range),
+        min(float(np.median(np.diff(angles))), LARGEST_STEP),
+        cases[0].analysis.threshold,
+    )
+    return tracing.curves(points, progress)
+
+
+@dataclass(frozen=True)
+class Tracing:
+    """Flutter points of a family of systems joined into curves.
+
+    Attributes
+    ----------
+    family : callable
+        The system at a value of the parameter.
+    limits : Limits
+        Of the parameter and of the airspeed.
+    step : float
+        First change of the parameter.
+    threshold : float
+        Damping ratio of the boundary, positive stable.
+    """
+
+    family: Callable[[float], AeroelasticProblem]
+    limits: Limits
+    step: float
+    threshold: float = 0.0
+
+    def curves(
+        self,
+        points: Sequence[tuple[float, FlutterPoint]],
+        progress: Callable[[int], None] = lambda finished: None,
+    ) -> list[TracedCurve]:
+        """Follow every flutter point, each curve once; one that cannot be followed has none.
+
+        Parameters
+        ----------
+        points : sequence of (float, FlutterPoint)
+            With the value of the parameter; others than flutter are passed over.
+        progress : callable
+            Called with the number of flutter points that lie on a curve already.
+        """
+        left = [(at, point) for at, point in points if point.kind == "flutter"]
+        total = len(left)
+        curves: list[TracedCurve] = []
+        while left:
+            at, point = left.pop(len(left) // 2)
+            try:
+                curve = self._both_ways(at, point)
+            except NUMERICAL_FAILURES:
+                continue
+            if not curve.repeats(curves, self.step):
+                curves.append(curve)
+            left = [
+                (other, point)
+                for other, point in left
+                if not curve.passes(other, point.speed, point.frequency, self.step)
+            ]
+            progress(total - len(left))
+        return curves
+
+    def _both_ways(self, at: float, point: FlutterPoint) -> TracedCurve:
+        start = (at, point.p.imag, point.speed)
+        ahead = follow_boundary(self.family, start, self.step, self.limits, self.threshold)
+        samples, turns = _samples(ahead), ahead.turns
+        if ahead.end != "closed":
+            behind = follow_boundary(self.family, start, -self.step, self.limits, self.threshold)
+            samples = np.hstack([_samples(behind)[:, :0:-1], samples])
+            turns = (*behind.turns[::-1], *turns)
+        parameter, k, speed, strength = samples
+        per_k = 1.0 / (2.0 * np.pi * self.family(at).half_chord)
+        return TracedCurve(
+            parameter,
+            speed,
+            k * speed * per_k,
+            strength,
+            tuple((s, U, k * U * per_k) for s, k, U in turns),
+        )
 
 
 def _family(
@@ -139,27 +200,6 @@ def _family(
         return model.system(model.modes(radians(first + share * (last - first))))
 
     return system
-
-
-def _both_ways(
-    family: Callable[[float], AeroelasticSystem],
-    angle: float,
-    start: tuple[Case, FlutterPoint],
-    step: float,
-    limits: Limits,
-) -> TracedCurve:
-    case, point = start
-    at = (angle, point.p.imag, point.speed)
-    threshold = case.analysis.threshold
-    ahead = follow_boundary(family, at, step, limits, threshold)
-    samples, turning = _samples(ahead), ahead.turning
-    if ahead.end != "closed":
-        behind = follow_boundary(family, at, -step, limits, threshold)
-        samples = np.hstack([_samples(behind)[:, :0:-1], samples])
-        turning = (*behind.turning, *turning)
-    fold, k, speed, strength = samples
-    frequency = k * speed / (2.0 * np.pi * case.system.half_chord)
-    return TracedCurve(fold, speed, frequency, strength, turning)
 
 
 def _samples(curve: BoundaryCurve) -> Real:
@@ -190,7 +230,7 @@ def with_curves(
     curves = trace_boundary(model, cases, hinge, progress)
     if not curves:
         return boundary
-    turning = sorted(angle for curve in curves for angle in curve.turning)
+    turning = sorted(angle for curve in curves for angle, _, _ in curve.turns)
     attrs = boundary.dataset.attrs | {"turning": ", ".join(f"{angle:.2f}" for angle in turning)}
     drawn = build_dataset(*_curve_variables(curves), attrs)
     return replace(boundary, dataset=boundary.dataset.merge(drawn).assign_attrs(attrs))
