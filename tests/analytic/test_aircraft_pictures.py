@@ -132,7 +132,7 @@ def test_an_equal_onset_is_called_so(dataset):
     changed = dataset.copy(deep=True)
     first = changed["flutter_speed"].values[0]
     changed["clamped_flutter_speed"].values[0] = first * 1.0005
-    assert "flutter at the same airspeed" in beside_clamped(changed).title
+    assert "flutter unchanged, " in beside_clamped(changed).title
 
 
 # ------------------------------------------------------------------------------ trim and motions

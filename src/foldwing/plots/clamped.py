@@ -135,5 +135,5 @@ def _change(fixed: float | None, free: float | None) -> str:
     if fixed is None or free is None:
         return "new" if free is not None else "gone" if fixed is not None else "in neither"
     if abs(free / fixed - 1.0) < _SAME:
-        return "at the same airspeed"
+        return "unchanged"
     return "later" if free > fixed else "earlier"

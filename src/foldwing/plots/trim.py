@@ -153,6 +153,7 @@ def _coefficients(
         Rule(largest, "y", "ink", "dot", 1.4),
         Note(limits[1], largest, f"largest lift coefficient {largest:g}", "ink", "right", "bottom",
              -4, 3),
+        *([Rule(-largest, "y", "ink", "dot", 1.4)] if y_range[0] < -largest else []),
         *_lines(dataset, dataset["speed"].values, values, y_range, 1.1),
     ]  # fmt: skip
     if limits[0] < end < limits[1]:
