@@ -319,10 +319,7 @@ def explicit_aircraft(wing, components, sides=1, wing_lags=True, tail_lags=True)
         return placed(first + body, np.array([[1, 0, 0], [0, 0, 0], [0, 1, place - x]], float))
 
     for part, side in enumerate(wings):
-        rows.append(placed(part, side.slope(0, 0.0)))
-        for x in (0.0, 0.4 * wing.segments[0].chord):
-            root = placed(part, side.displacement(0, x, 0.0))
-            rows.append(root - carried(0, aircraft.fuselage.x, x))
+        rows += _joined(wing, side, partial(placed, part), carried)
     for x in (0.0, 0.7):
         rows.append(carried(0, aircraft.fuselage.x, x) - carried(1, aircraft.tail.x, x))
     loads, on_tail = level_loads(wing)
@@ -332,17 +329,18 @@ def explicit_aircraft(wing, components, sides=1, wing_lags=True, tail_lags=True)
         for strip in side.strips(loads, wing_lags, partial(placed, part))
     ]
     tail = aircraft.tail
+    up, width = np.array([0.0, 0.0, 1.0]), np.array([sides * tail.span])
     strips.append(
-        _strip(
-            tail,
-            np.array([sides * tail.span]),
-            on_tail,
-            tail_lags,
-            lambda x: carried(1, tail.x, tail.x + x)[None],
-            np.array([0.0, 0.0, 1.0]),
-        )
+        _strip(tail, width, on_tail, tail_lags, lambda x: carried(1, tail.x, tail.x + x)[None], up)
     )
     return Explicit(mass, stiffness, _independent(np.vstack(rows)), tuple(strips), wing.air.density)
+
+
+def _joined(wing, side, placed, carried):
+    """Return the rows that hold the root of one wing to the fuselage."""
+    yield placed(side.slope(0, 0.0))
+    for x in (0.0, 0.4 * wing.segments[0].chord):
+        yield placed(side.displacement(0, x, 0.0)) - carried(0, wing.aircraft.fuselage.x, x)
 
 
 def _independent(rows):
