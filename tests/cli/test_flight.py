@@ -46,9 +46,9 @@ def test_json(cli, empty_folder):
     answer = cli("flight", CESSNA, *SPEEDS, "--json").json
     assert list(empty_folder.iterdir()) == []
     assert answer["speed"] == 54.0
-    four, bare, simple = answer["models"]
-    names = [each["model"] for each in (four, bare, simple)]
-    assert names == ["four states", "without drag", "simple phugoid"]
+    four, bare, simple, bodies = answer["models"]
+    names = [each["model"] for each in (four, bare, simple, bodies)]
+    assert names == ["four states", "without drag", "simple phugoid", "multi-body, quasi-steady"]
     phugoid, short_period = four["modes"]
     assert (phugoid["mode"], short_period["mode"]) == ("phugoid", "short period")
     assert phugoid["period"] == pytest.approx(2 * math.pi / phugoid["imag"])
@@ -57,7 +57,7 @@ def test_json(cli, empty_folder):
     assert len(simple["modes"]) == 1
     assert [row["speed"] for row in answer["speeds"]] == [
         float(speed) for speed in range(25, 61, 5) for _ in range(3)
-    ]
+    ] + [float(speed) for speed in range(25, 61, 5)]
     assert answer["derivatives"]["M_u"] == 0.0
     assert answer["trim"]["tail_lift"] == 0.0
 
@@ -71,7 +71,7 @@ def test_files_hold_the_answer(cli, empty_folder):
     paths = lines(folder / "flight_paths.csv")
     assert {row["mode"] for row in paths} == {"phugoid", "short period"}
     assert float(paths[0]["pitch"]) == pytest.approx(math.degrees(0.1), rel=0.01)
-    assert len(lines(folder / "flight_speeds.csv")) == 8 * 5
+    assert len(lines(folder / "flight_speeds.csv")) == 8 * 7
     for name in ("flight-paths", "flight-paths-relative", "flight-eigenvalues"):
         assert (folder / f"{name}.png").stat().st_size > 10_000
     assert (folder / "flight-against-speed.svg").exists()
@@ -134,7 +134,7 @@ BAD_MODELS = [
     (TEXT.replace('"54 m/s"', '"0 m/s"'), "flight.speed", "'0 m/s'", "0.001 m/s", "54 m/s"),
     (TEXT.replace('"54 m/s"', '"54 kg"'), "flight.speed", "'54 kg'", "[mass]", "54 m/s"),
     (TEXT.replace('speed = "54 m/s"\n', ""), "flight.speed: missing", "an airspeed", "Add speed"),
-    (TEXT.replace('"15 ft"', '"-15 ft"'), "flight.tail_arm", "aft to the tail", "15 ft"),
+    (TEXT.replace('"15 ft"', '"-15 ft"'), "flight.tail_arm", "aft to that of the tail", "m"),
     (
         TEXT.replace("gravity = 0.0", "gravity = 5"),
         "flight.tail_arm",

@@ -121,7 +121,7 @@ def test_phugoid_and_short_period_are_eigenvalues_of_one_matrix_without_lag(name
     model, problem = flying(name, (False, False))
     slowest, other = model.trim(model.modes()).slowest, explicit(name, lags=(False, False))
     speeds = slowest * np.array([1.0, 1.15, 1.3])
-    motions = flight_modes(problem, (slowest, 4 * slowest))
+    motions = flight_modes(problem, (slowest, 4 * slowest), 9.80665)
     assert motions.names == ("phugoid", "short period")
     values = motions.eigenvalues(problem, speeds)
     for U, (phugoid, short) in zip(speeds, values, strict=True):

@@ -104,7 +104,7 @@ def test_two_roots_are_neutral_at_every_airspeed():
 def test_the_phugoid_slows_as_the_airspeed_grows(folds):
     """Near sqrt(2) g/U at first; the elastic wing and the growing instability hold it up later."""
     system, slowest, _ = solved(folds)
-    motions = flight_modes(system, (slowest, TOP))
+    motions = flight_modes(system, (slowest, TOP), 9.80665)
     assert motions.names[0] == "phugoid"
     speeds = slowest * np.array([1.0, 1.2, 1.5])
     value = motions.eigenvalues(system, speeds)[:, 0]
@@ -159,7 +159,7 @@ def test_at_rest_a_partly_carried_aircraft_has_the_roots_of_still_air():
 def test_loci_pass_the_slowest_airspeed_without_a_jump_and_are_certified(aerodynamics):
     system, slowest, found = solved((30, -60), aerodynamics)
     beginning = Beginning(system.partly_carried(slowest), slowest)
-    motions = flight_modes(system, (slowest, TOP))
+    motions = flight_modes(system, (slowest, TOP), 9.80665)
     speeds = np.concatenate([[0.0], slowest + np.array([-1e-3, 0.0, 1e-3]), [25.0, 30.0, 38.0]])
     loci = root_loci(system, speeds, found.sweep, Further(motions.roots, beginning))
     assert loci.certified[speeds >= slowest].all()

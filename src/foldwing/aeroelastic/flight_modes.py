@@ -8,6 +8,7 @@ far below the short period and that far below the elastic modes, from a quasi-st
 whose roots all come from one matrix, and then converged on the full problem and followed.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,7 +18,7 @@ from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.maths.arrays import Complex, Indices, Real
 from foldwing.stability.flutter import FlutterAnalysis
 from foldwing.stability.newton import Roots, polish_roots
-from foldwing.stability.status import FlutterPoint
+from foldwing.stability.status import ELASTIC, FlutterPoint
 from foldwing.stability.tracking import branches_at, record
 
 PHUGOID, SHORT_PERIOD = "phugoid", "short period"
@@ -25,11 +26,14 @@ PHUGOID, SHORT_PERIOD = "phugoid", "short period"
 LOW = 0.02
 """Reduced frequency at which the forces in phase with the rate are taken."""
 
-TRIALS = 24
+TRIALS = 16
 """Airspeeds at which the two are looked for."""
 
-AS_A_WHOLE = 0.5
-"""Share of the kinetic energy in rigid motions from which on a root may be the short period."""
+AS_A_WHOLE = 0.3
+"""Share of the kinetic energy in rigid motions from which on a root may be one of the two."""
+
+FASTEST_PHUGOID = 3.0
+"""Multiple of sqrt(2) g / U beyond which an oscillation is no phugoid."""
 
 NEAR = 0.5
 """Relative distance from where it was expected at which a converged root is another one."""
@@ -50,10 +54,17 @@ class FlightModes:
     names : tuple of str
     roots : Roots
         Each at an airspeed at which it is beyond doubt.
+    gravity : float
+        m/s^2.
     """
 
     names: tuple[str, ...]
     roots: Roots
+    gravity: float
+
+    def fastest_phugoid(self, speed: float) -> float:
+        """Return how fast a phugoid can be in rad/s at an airspeed in m/s."""
+        return _fastest_phugoid(speed, self.gravity)
 
     def eigenvalues(self, system: AeroelasticSystem, speeds: Real) -> Complex:
         """Return them at ascending airspeeds in m/s, shape (u, modes); nan where one is lost."""
@@ -67,7 +78,9 @@ class FlightModes:
         return values
 
 
-def flight_modes(system: AeroelasticSystem, speed_range: tuple[float, float]) -> FlightModes:
+def flight_modes(
+    system: AeroelasticSystem, speed_range: tuple[float, float], gravity: float
+) -> FlightModes:
     """Return phugoid and short period of an aircraft.
 
     Parameters
@@ -75,24 +88,40 @@ def flight_modes(system: AeroelasticSystem, speed_range: tuple[float, float]) ->
     system : AeroelasticSystem
     speed_range : (float, float)
         Airspeeds in m/s between which they are looked for.
+    gravity : float
+        m/s^2; with the airspeed it tells how fast a phugoid can be.
     """
-    trials = [_candidates(system, float(U)) for U in np.geomspace(*speed_range, TRIALS)]
-    names: list[str] = []
-    guesses: list[complex] = []
-    both = [trial for trial in trials if trial.phugoid and trial.short_period]
-    chosen = max(both, key=lambda trial: trial.separation, default=None)
-    if chosen is not None:
-        names, guesses = [PHUGOID, SHORT_PERIOD], [chosen.phugoid, chosen.short_period]
-    elif any(trial.phugoid for trial in trials):
-        chosen = max((t for t in trials if t.phugoid), key=lambda trial: -abs(trial.phugoid))
-        names, guesses = [PHUGOID], [chosen.phugoid]
-    if chosen is None:
-        return FlightModes((), polish_roots(system, np.zeros(0, np.complex128), np.zeros(0)))
-    p = np.asarray(guesses, np.complex128) * (system.half_chord / chosen.speed)
-    roots = polish_roots(system, p, np.full(len(p), chosen.speed))
-    found = roots.converged & (np.abs(roots.p / p - 1.0) < NEAR) & (roots.p.imag > 0.0)
-    kept = np.flatnonzero(found)
-    return FlightModes(tuple(names[index] for index in kept), roots.take(kept))
+    trials = [_trial(system, float(U), gravity) for U in np.geomspace(*speed_range, TRIALS)]
+    apart = sorted(trials, key=lambda trial: -trial.separation)
+    found = {
+        PHUGOID: _converged(system, [(t.speed, t.phugoid) for t in apart]),
+        SHORT_PERIOD: _converged(system, [(t.speed, t.short_period) for t in apart]),
+    }
+    roots = [root for root in found.values() if root is not None]
+    names = tuple(name for name, root in found.items() if root is not None)
+    if not roots:
+        nothing = polish_roots(system, np.zeros(0, np.complex128), np.zeros(0))
+        return FlightModes((), nothing, gravity)
+    together = Roots(*(np.concatenate(part) for part in zip(*roots, strict=True)))
+    return FlightModes(names, together, gravity)
+
+
+def _fastest_phugoid(speed: float, gravity: float) -> float:
+    """Return a multiple of Lanchester's sqrt(2) g / U in rad/s."""
+    return FASTEST_PHUGOID * float(np.sqrt(2.0)) * gravity / speed
+
+
+def _converged(system: AeroelasticSystem, guesses: Sequence[tuple[float, complex]]) -> Roots | None:
+    """Return the root of the first guess (airspeed, rad/s) that leads to one near it."""
+    for speed, guess in guesses:
+        if not guess:
+            continue
+        p = np.array([guess * (system.half_chord / speed)])
+        root = polish_roots(system, p, np.array([speed]))
+        near = abs(root.p[0] / p[0] - 1.0) < NEAR and root.p[0].imag > 0.0
+        if root.converged[0] and near:
+            return root
+    return None
 
 
 @dataclass(frozen=True)
@@ -106,18 +135,28 @@ class _Trial:
 
     @property
     def separation(self) -> float:
-        slow, fast = abs(self.phugoid), abs(self.short_period)
-        return min(fast / slow, self.elastic / fast)
+        """How far the short period is from its neighbours, as a ratio; 0 where one is missing."""
+        if not self.phugoid or not self.short_period:
+            return 0.0
+        fast = abs(self.short_period)
+        return min(fast / abs(self.phugoid), self.elastic / fast)
 
 
-def _candidates(system: AeroelasticSystem, speed: float) -> _Trial:
+def _trial(system: AeroelasticSystem, speed: float, gravity: float) -> _Trial:
+    """Look for both at one airspeed; the phugoid is near Lanchester's sqrt(2) g / U or slower."""
     values, share = _oscillations(system, speed)
     elastic = system.omega[~system.rigid]
     lowest = float(elastic[0]) if len(elastic) else np.inf
     whole = values[share > AS_A_WHOLE]
-    phugoid = complex(whole[0]) if len(whole) else 0j
-    short = complex(whole[1]) if len(whole) > 1 else 0j
-    return _Trial(speed, phugoid, short, lowest)
+    highest = _fastest_phugoid(speed, gravity)
+    size = np.abs(whole)
+    slow, fast = whole[size <= highest], whole[(size > highest) & (size < lowest)]
+    return _Trial(
+        speed,
+        complex(slow[0]) if len(slow) else 0j,
+        complex(fast[0]) if len(fast) else 0j,
+        lowest,
+    )
 
 
 def _oscillations(system: AeroelasticSystem, speed: float) -> tuple[Complex, Real]:
@@ -155,10 +194,11 @@ def with_motions(
 ) -> FlutterAnalysis:
     """Return the analysis with each point of phugoid or short period named after it.
 
-    A merger belongs to the pair that turns real there.
+    A merger belongs to the pair that turns real there. Beyond it a phugoid may be born again, which
+    no branch leads to: it is known by its nature.
     """
     doubtful = [index for index, point in enumerate(analysis.points) if _is_doubtful(point)]
-    if not modes.names or not doubtful:
+    if not doubtful:
         return analysis
     points = list(analysis.points)
     at = np.array([_compared_at(points[index]) for index in doubtful])
@@ -167,6 +207,8 @@ def with_motions(
     values[order] = modes.eigenvalues(system, at[order])
     for index, row in zip(doubtful, values, strict=True):
         motion = _motion(points[index], row, system.half_chord, modes.names)
+        if motion == ELASTIC and _is_reborn(points[index], system, modes):
+            motion = PHUGOID
         points[index] = replace(points[index], motion=motion)
     return replace(analysis, points=tuple(points))
 
@@ -178,6 +220,17 @@ def _is_doubtful(point: FlutterPoint) -> bool:
     return point.event == "merger"
 
 
+def _is_reborn(point: FlutterPoint, system: AeroelasticSystem, modes: FlightModes) -> bool:
+    """Return whether a point is as slow as a phugoid, and moves the aircraft as a whole."""
+    if point.kind != "flutter":
+        return False
+    omega = abs(point.p) * point.speed / system.half_chord
+    at = np.array([point.p]), np.array([point.speed]), point.vector[None]
+    energy = np.abs(system.modal_vectors(*at)[0]) ** 2
+    whole = float(energy[system.rigid].sum() / energy.sum())
+    return omega <= modes.fastest_phugoid(point.speed) and whole > 0.5
+
+
 def _compared_at(point: FlutterPoint) -> float:
     return point.speed * (1.0 - BESIDE) if point.event == "merger" else point.speed
 
@@ -187,5 +240,6 @@ def _motion(point: FlutterPoint, values: Complex, b: float, names: tuple[str, ..
     distance = np.abs(values * b / (point.speed * point.p) - 1.0)
     limit = BESIDE_MERGER if point.event == "merger" else SAME_ROOT
     distance = np.where(np.isfinite(distance), distance, np.inf)
-    nearest = int(distance.argmin())
-    return names[nearest] if distance[nearest] < limit else point.motion
+    if not names or distance.min() >= limit:
+        return point.motion
+    return names[int(distance.argmin())]

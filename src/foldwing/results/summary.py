@@ -286,7 +286,8 @@ def response(dataset: "xarray.Dataset") -> str:
 
 def warnings(dataset: "xarray.Dataset") -> list[str]:
     """Return what makes results doubtful: modes not resolved, remarks on cases, each once."""
-    parts = [_unresolved(dataset), unstable_motions(dataset), level_flight(dataset)]
+    parts = [_unresolved(dataset), unstable_motions(dataset), short_period(dataset)]
+    parts.append(level_flight(dataset))
     if "message" in dataset:
         failed = set(failed_cases(dataset))
         cases: dict[str, list[int]] = {}
@@ -295,6 +296,21 @@ def warnings(dataset: "xarray.Dataset") -> list[str]:
                 cases.setdefault(remark, []).append(case)
         parts += [_remark(dataset, those, remark) for remark, those in cases.items()]
     return [part for part in parts if part]
+
+
+def short_period(dataset: "xarray.Dataset") -> str:
+    """Return from where on the short period of an aircraft grows, or nothing."""
+    rows = [
+        row
+        for row in flutter_rows(dataset)
+        if row.motion == "short period" and row.kind == "flutter" and row.event == "onset"
+    ]
+    if not rows:
+        return ""
+    first = min(rows, key=lambda row: row.speed)
+    where = _in_brackets(fold_text(dataset, first.case)) if dataset.sizes["fold"] > 1 else ""
+    text = f"The short period grows from {first.speed:.3g} m/s on at {first.frequency:.3g} Hz"
+    return f"{text}{where}. It is listed but not called critical: see to it by control or trim."
 
 
 def level_flight(dataset: "xarray.Dataset") -> str:

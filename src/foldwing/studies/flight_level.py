@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from foldwing.aeroelastic.aircraft import aircraft_of
 from foldwing.aeroelastic.flight_modes import FlightModes, flight_modes
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.aeroelastic.trim import Trim
@@ -38,11 +39,11 @@ class Flight:
         speed_range: tuple[float, float],
     ) -> "Flight":
         """Return the level flight of an aircraft between two airspeeds in m/s."""
-        level = model.trim(modes)
+        level, gravity = model.trim(modes), aircraft_of(model.wing).gravity
         slow, fast = speed_range
         reachable = level.slowest < fast
         limits = (max(slow, level.slowest) if reachable else slow), fast
-        return Flight(level, flight_modes(system, limits), limits, _warning(level, fast))
+        return Flight(level, flight_modes(system, limits, gravity), limits, _warning(level, fast))
 
     def further(self, system: AeroelasticSystem) -> Further:
         """Return what the loci of an aircraft have besides those of a clamped wing."""

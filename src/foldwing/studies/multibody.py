@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from pydantic import ValidationError
 
 from foldwing.aeroelastic.rigid import rigid_modes, rigid_roots
 from foldwing.aeroelastic.wing import AeroelasticWing
@@ -71,12 +72,20 @@ def airframe_of(wing: Wing, folds: tuple[float, ...], speed: float | None) -> Ai
     )
 
 
-def wing_of(airframe: Airframe) -> Wing:
+def wing_of(airframe: Airframe) -> Wing | None:
     """Return a wing with fuselage and tail that flies as a rigid aircraft does.
 
     Quasi-steady, without drag, and so stiff that it stays rigid; mass and inertia are shared out
-    between the parts so that those of the whole are right.
+    between the parts so that those of the whole are right. None where that is not possible, because
+    the pitch inertia is too small for masses at these places.
     """
+    try:
+        return _wing_of(airframe)
+    except ValidationError:
+        return None
+
+
+def _wing_of(airframe: Airframe) -> Wing:
     wing, tail = airframe.wing, airframe.tail
     half, centre = airframe.mass / 2.0, airframe.centre_of_gravity
     span, own = wing.span / 2.0, WING_SHARE * airframe.mass / 2.0
