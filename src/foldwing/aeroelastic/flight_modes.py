@@ -38,6 +38,9 @@ FASTEST_PHUGOID = 3.0
 NEAR = 0.5
 """Relative distance from where it was expected at which a converged root is another one."""
 
+FASTEST_SHORT_PERIOD = 2.0
+"""Multiple of the lowest elastic frequency beyond which the short period is not looked for."""
+
 SAME_ROOT = 1e-4
 """Relative difference below which a flutter point lies on a followed branch."""
 
@@ -150,7 +153,10 @@ def _trial(system: AeroelasticSystem, speed: float, gravity: float) -> _Trial:
     whole = values[share > AS_A_WHOLE]
     highest = _fastest_phugoid(speed, gravity)
     size = np.abs(whole)
-    slow, fast = whole[size <= highest], whole[(size > highest) & (size < lowest)]
+    slow, fast = (
+        whole[size <= highest],
+        whole[(size > highest) & (size < FASTEST_SHORT_PERIOD * lowest)],
+    )
     return _Trial(
         speed,
         complex(slow[0]) if len(slow) else 0j,
