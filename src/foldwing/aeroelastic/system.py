@@ -44,12 +44,16 @@ class AeroelasticSystem:
         Structural damping ratio zeta.
     trim_forces : AerodynamicModel, optional
         Gives Qhat_0 in place of Qhat.
+    divided : bool
+        Whether columns of motions without stiffness are divided as said above. The p-k method wants
+        them whole.
     """
 
     omega: Real
     aerodynamics: AerodynamicModel
     damping: float = 0.0
     trim_forces: AerodynamicModel | None = None
+    divided: bool = True
 
     @property
     def size(self) -> int:
@@ -137,13 +141,13 @@ class AeroelasticSystem:
         rates = self.aerodynamics.scheme.rates(p / self.half_chord)
         minus_B = self._inertia_less(self.aerodynamics.forces(p), rates)
         damping = None if self._damping is None else _stacked(rates.rate) * self._damping
+        if not self.rigid.any() or (self.trim_forces is None and not self.divided):
+            return Pencil(self._stiffness, damping, minus_B)
         if self.trim_forces is not None:
             constant = self._stiffness + self._in_coordinates(self.trim_forces.forces(p), 0.0)
-            for part in (constant, minus_B):
+            for part in (constant, minus_B) if self.divided else ():
                 part[:, :, self.neutral] /= p[:, None, None]
             return Pencil(constant, damping, minus_B)
-        if not self.rigid.any():
-            return Pencil(self._stiffness, damping, minus_B)
         constant = np.where(self.rigid, minus_B, self._stiffness)
         constant[:, :, self.neutral] /= p[:, None, None]
         return Pencil(constant, damping, np.where(self.rigid, 0.0, minus_B))
@@ -160,20 +164,18 @@ class AeroelasticSystem:
         if self._damping is not None:
             damping = _stacked(rates.rate) * self._damping
             damping_slope = _stacked(slopes.rate) / b * self._damping
-        if self.trim_forces is not None:
-            Q, dQ = self.trim_forces.forces_with_derivative(p)
-            constant = self._stiffness + self._in_coordinates(Q, 0.0)
-            constant_slope = self._in_coordinates(dQ, 0.0)
+        if not self.rigid.any() or (self.trim_forces is None and not self.divided):
+            zero = np.zeros_like(self._stiffness)
+            return Pencil(self._stiffness, damping, minus_B), Pencil(zero, damping_slope, slope)
+        if self.trim_forces is None:
+            return self._with_rigid_columns(p, (minus_B, slope), (damping, damping_slope))
+        Q, dQ = self.trim_forces.forces_with_derivative(p)
+        constant = self._stiffness + self._in_coordinates(Q, 0.0)
+        constant_slope = self._in_coordinates(dQ, 0.0)
+        if self.divided:
             self._divide_neutral(p, constant, constant_slope)
             self._divide_neutral(p, minus_B, slope)
-            return (
-                Pencil(constant, damping, minus_B),
-                Pencil(constant_slope, damping_slope, slope),
-            )
-        if self.rigid.any():
-            return self._with_rigid_columns(p, (minus_B, slope), (damping, damping_slope))
-        zero = np.zeros_like(self._stiffness)
-        return Pencil(self._stiffness, damping, minus_B), Pencil(zero, damping_slope, slope)
+        return Pencil(constant, damping, minus_B), Pencil(constant_slope, damping_slope, slope)
 
     def _divide_neutral(self, p: Complex, part: Complex, slope: Complex) -> None:
         """Divide the columns of neutral motions by p, in a matrix and its derivative."""
@@ -220,6 +222,11 @@ class AeroelasticSystem:
             Pencil(constant_slope, damping[1], np.where(rigid, 0.0, slope)),
         )
 
+    @property
+    def whole(self) -> "AeroelasticSystem":
+        """The same problem with no column divided, as the p-k method wants it."""
+        return replace(self, divided=False)
+
     def partly_carried(self, speed: float) -> "AeroelasticSystem":
         """Return the problem of an aircraft too slow to carry its weight, below ``speed`` in m/s.
 
@@ -233,9 +240,9 @@ class AeroelasticSystem:
 
     def modal_vectors(self, p: Complex, speed: Real, x: Complex) -> Complex:
         """Return null vectors x of T (m, n) as modal coordinates q of unit 2-norm, shape (m, n)."""
-        divided = self.rigid if self.trim_forces is None else np.zeros_like(self.rigid)
-        factor = np.where(divided, 1.0 / speed[:, None] ** 2, 1.0)
-        factor = factor * np.where(self.neutral, 1.0 / p[:, None], 1.0)
+        moved = self.rigid & (self.divided and self.trim_forces is None)
+        factor = np.where(moved, 1.0 / speed[:, None] ** 2, 1.0)
+        factor = factor * np.where(self.neutral & self.divided, 1.0 / p[:, None], 1.0)
         q = (x * factor * self.scale) @ self.rotation.T
         return np.asarray(q / np.linalg.norm(q, axis=1, keepdims=True))
 

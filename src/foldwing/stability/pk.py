@@ -27,7 +27,8 @@ _OVERDAMPED = 1e-9
 class InertialProblem(AeroelasticProblem, Protocol):
     """An aeroelastic problem that also tells the mass of the structure.
 
-    Its coefficient T1 has to be proportional to p, as that of viscous damping is.
+    Its coefficient T1 has to be proportional to p, as that of viscous damping is, and T0 - U^2 T2
+    less the inertia must be stiffness and forces alone: no column may be divided by p or U.
     """
 
     @property
