@@ -44,6 +44,10 @@ def test_the_tables_tell_flutter_trim_and_motions(cli):
     columns = dataset["branch_name"].values.tolist()
     neutral = dataset["eigenvalue"].values[0][:, [columns.index(name) for name in ("x", "z")]]
     assert np.all(neutral == 0.0)
+    kinds = dict(zip(columns, dataset["branch_motion"].values.tolist(), strict=True))
+    assert {kinds["x"], kinds["z"]} == {"neutral"}
+    assert (kinds["phugoid"], kinds["short period"]) == ("phugoid", "short period")
+    assert (kinds["pitch"], kinds["B1"], kinds["D1"]) == ("", "elastic", "real")
     moving = dataset["speed"].values >= float(dataset["slowest_speed"][0])
     assert np.isfinite(dataset["eigenvalue"].values[0][moving, columns.index("phugoid")][0])
 

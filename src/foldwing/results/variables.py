@@ -134,6 +134,9 @@ _LOCI = (
     ),
     variable("branch_name", ("mode",), "", "name of the branch", "text"),
     variable(
+        "branch_motion", ("mode",), "", "elastic, real, neutral or a motion as a whole", "text"
+    ),
+    variable(
         "loci_certified", ("fold", "speed"), "", "all unstable eigenvalues are listed", "truth"
     ),
 )

@@ -11,6 +11,7 @@ from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.stability.contours import determinant_map
 from foldwing.stability.loci import RootLoci, root_loci
+from foldwing.stability.status import ELASTIC
 from foldwing.stability.tracking import BORN
 from foldwing.structure.following import FollowedModes
 from foldwing.studies.case import Case, solve_case, verdict_variables
@@ -161,6 +162,7 @@ def loci_variables(
         "confidence": (dims, loci.confidence[None]),
         "loci_certified": (("fold", "speed"), loci.certified[None]),
         "branch_name": (("mode",), np.array(names)),
+        "branch_motion": (("mode",), np.array(_branch_motions(loci, names, motions), np.str_)),
     }
 
 
@@ -179,6 +181,20 @@ def branch_names(loci: RootLoci, modes: tuple[str, ...], motions: tuple[str, ...
             counts[letter] += 1
             names.append(f"{letter}{counts[letter]}")
     return names
+
+
+def _branch_motions(loci: RootLoci, names: list[str], motions: tuple[str, ...]) -> list[str]:
+    """Return what each branch is: elastic, real, neutral, or a motion of an aircraft as a whole."""
+    result = []
+    for name, values in zip(names, loci.eigenvalue.T, strict=True):
+        known = values[np.isfinite(values.real)]
+        if not known.size:
+            result.append("")
+        elif name in NEUTRAL or name in motions:
+            result.append("neutral" if name in NEUTRAL else name)
+        else:
+            result.append(ELASTIC if np.any(known.imag != 0.0) else "real")
+    return result
 
 
 def search_attributes(model: AeroelasticWing, speeds: tuple[float, float]) -> Variables:
