@@ -34,8 +34,10 @@ def system_and_points(wing, slow, fast):
     ids=["aircraft 30,-60", "aircraft 30,60", "free flap"],
 )
 def test_p_k_and_v_g_meet_the_flutter_points(wing, slow, fast):
-    """Direction is not asked of V-g: the airspeed of its curves may run backwards along k. Where two
-    modes nearly meet, above 40 m/s, p-k finds one root for both."""
+    """Direction is not asked of V-g: the airspeed of its curves may run backwards along k.
+
+    Where two modes nearly meet, above 40 m/s, p-k finds one root for both.
+    """
     system, points = system_and_points(wing, slow, fast)
     assert points
     by_pk = pk_flutter(system.whole, pk(system.whole, np.linspace(slow, fast, 160)), accuracy=1e-10)
