@@ -17,12 +17,12 @@ from foldwing.stability.problem import evaluate
 from foldwing.stability.real_axis import births, mergers, real_axis_path, real_roots
 from foldwing.stability.spectrum import spectrum_at_speed
 from foldwing.stability.status import Status
+from foldwing.stability.still_air import still_air_roots
 from foldwing.stability.tracking import (
     Branches,
     _collapsed,
     branches_at,
     record,
-    still_air_roots,
     track,
 )
 from support.stability import determinant, exact_root, example

@@ -16,7 +16,8 @@ from foldwing.errors import InputError
 from foldwing.model import read_model
 from foldwing.stability.loci import root_loci
 from foldwing.stability.status import Status
-from foldwing.stability.tracking import still_air_roots, track
+from foldwing.stability.still_air import still_air_roots
+from foldwing.stability.tracking import track
 from foldwing.studies.case import solve_case
 from foldwing.studies.speeds import speed_range
 

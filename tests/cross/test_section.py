@@ -12,7 +12,7 @@ from foldwing.model import Analysis, TypicalSection, parse_section, read_section
 from foldwing.stability.flutter import find_flutter
 from foldwing.stability.loci import root_loci
 from foldwing.stability.problem import evaluate
-from foldwing.stability.tracking import still_air_roots
+from foldwing.stability.still_air import still_air_roots
 from support.sections import RigidStrip
 from support.stability import of_kind
 from support.typical_section import TypicalSection as Reference

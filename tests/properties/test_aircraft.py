@@ -14,7 +14,8 @@ from foldwing.stability.flutter import find_flutter
 from foldwing.stability.loci import Further, root_loci
 from foldwing.stability.newton import polish_roots
 from foldwing.stability.problem import evaluate
-from foldwing.stability.tracking import Beginning, still_air_roots, track
+from foldwing.stability.still_air import still_air_roots
+from foldwing.stability.tracking import Beginning, track
 from support.random_aircraft import random_aircraft, with_aircraft
 from support.stability import UnstableRoots, example_wing, unstable_by
 

@@ -237,38 +237,13 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
     """Write the dataset, its tables and its pictures into a folder, and name them."""
     if folder is None:
         return
-    from foldwing.results import (
-        DATASET_FILE,
-        free_name,
-        result_folder,
-        write_aircraft_csv,
-        write_changes_csv,
-        write_convergence_csv,
-        write_csv,
-        write_dataset,
-        write_flight_csv,
-        write_frequencies_csv,
-        write_steady_csv,
-    )
+    from foldwing.results import DATASET_FILE, free_name, result_folder, write_dataset
 
     if output.out is None:  # another run may have taken the dated name meanwhile
         folder = free_name(folder)
     with result_folder(folder, output.force) as staging:
         write_dataset(dataset, staging / DATASET_FILE)
-        if "natural_frequency" in dataset:
-            write_frequencies_csv(dataset, staging / "natural_frequencies.csv")
-        if "case" in dataset:
-            write_csv(dataset, staging / "flutter_points.csv")
-        for variable, write in (
-            ("level_speed", write_convergence_csv),
-            ("lift_slope", write_steady_csv),
-            ("flight_eigenvalue", write_flight_csv),
-            ("lift_share", write_aircraft_csv),
-        ):
-            if variable in dataset:
-                write(dataset, staging)
-        if "change_kind" in dataset:
-            write_changes_csv(dataset, staging / "changes.csv")
+        _write_tables(dataset, staging)
         if output.plot:
             from foldwing.plots import write_pictures, write_report
 
@@ -280,3 +255,31 @@ def write_result(dataset: "xarray.Dataset", folder: Path | None, output: Output)
         print(f"\nWritten to {folder}:", *names, sep="\n  ", file=stream)
         if output.plot:
             print(f"\nReport: {folder / 'report.html'}", file=stream)
+
+
+def _write_tables(dataset: "xarray.Dataset", folder: Path) -> None:
+    """Write the CSV files of what the dataset holds."""
+    from foldwing.results import (
+        write_aircraft_csv,
+        write_changes_csv,
+        write_convergence_csv,
+        write_csv,
+        write_flight_csv,
+        write_frequencies_csv,
+        write_steady_csv,
+    )
+
+    if "natural_frequency" in dataset:
+        write_frequencies_csv(dataset, folder / "natural_frequencies.csv")
+    if "case" in dataset:
+        write_csv(dataset, folder / "flutter_points.csv")
+    for variable, write in (
+        ("level_speed", write_convergence_csv),
+        ("lift_slope", write_steady_csv),
+        ("flight_eigenvalue", write_flight_csv),
+        ("lift_share", write_aircraft_csv),
+    ):
+        if variable in dataset:
+            write(dataset, folder)
+    if "change_kind" in dataset:
+        write_changes_csv(dataset, folder / "changes.csv")

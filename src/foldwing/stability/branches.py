@@ -11,13 +11,12 @@ import numpy as np
 from foldwing.maths.arrays import Complex, Indices, Mask, Real
 from foldwing.stability.newton import Roots
 from foldwing.stability.problem import AeroelasticProblem
+from foldwing.stability.still_air import StillAirRoots, still_air_roots
 from foldwing.stability.tracking import (
     Branches,
-    StillAirRoots,
     advance,
     branches_at,
     resolved_speed,
-    still_air_roots,
 )
 
 MEETING = 1e-6

@@ -11,8 +11,9 @@ from foldwing.stability.newton import Roots
 from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.real_axis import mergers, real_axis_path
 from foldwing.stability.status import ELASTIC, FlutterPoint
+from foldwing.stability.still_air import still_air_roots
 from foldwing.stability.sweep import Sweep, resolved_frequency, sweep
-from foldwing.stability.tracking import resolved_speed, still_air_roots
+from foldwing.stability.tracking import resolved_speed
 
 CRITICAL_EVENTS = ("onset", "merger")
 
