@@ -3,6 +3,7 @@
 ==============  ================================================================================
 `port`          what every model offers: Qhat(p) with F = U^2 Qhat(p) q
 `strip`         Theodorsen's strip theory, quasi-steady theory
+`combined`      the sum of several models: a wing of one kind, a tail of another
 `horseshoe`     velocity of a horseshoe vortex: any in space, and many across the stream
 `lattice`       strips and panels of the folded wing
 `doubts`        when a lattice is refused or doubtful

@@ -9,7 +9,8 @@
 `certificate`            unstable roots counted by the argument principle
 `sweep`                  all crossings of all airspeeds, certified
 `real_axis`              divergence, mergers, births of pairs
-`tracking`, `loci`       eigenvalues against airspeed
+`still_air`, `tracking`, roots at rest; eigenvalues against airspeed
+`loci`
 `branches`, `flutter`    which points are one root and from which mode; the result of a case
 `continuation`           the boundary through a parameter, around its turns
 `domains`, `spectrum`,   all roots of any matrix function in a region, certified

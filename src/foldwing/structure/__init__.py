@@ -1,1 +1,14 @@
-"""Structural dynamics: component modes of the segments, hinges, and the joined wing."""
+"""Structural dynamics: component modes of the segments, hinges, and the joined wing.
+
+==============  ================================================================================
+`component`     what every kind of segment model offers
+`spanwise`      functions along the span from which the modes of a beam are made
+`beam`          component modes of a beam segment
+`hinges`        springs and constraints between segments
+`bodies`        fuselage and tail, rigid at the root
+`assembly`      mass, stiffness and constraints of the joined wing
+`modes`         its natural modes; those of an aircraft as a whole
+`mass_centres`  centres of mass, and how the modes move them
+`following`     modes followed through fold angles
+==============  ================================================================================
+"""

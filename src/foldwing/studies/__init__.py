@@ -8,6 +8,9 @@
 `flutter`    eigenvalues against airspeed and flutter points of one case
 `boundary`   flutter points against fold angle
 `trace`      the boundary as continuous curves
+`aircraft`   an aircraft in flight beside its wing clamped; `flight_level` its level flight
+`multibody`  one aircraft as joined bodies and as four states
+`section`    a typical section against torsion frequency; `section_curves`, `lowest` its curves
 `loads`      pressure, circulation and work of the air at flutter points
 `steady`     steady lift, drag and moments against fold angle
 `flight`     phugoid and short period of a rigid aircraft
