@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from foldwing.aeroelastic.wing import AeroelasticWing
-from foldwing.stability.flutter import find_flutter, is_critical
+from foldwing.stability.flutter import find_flutter
 from foldwing.stability.newton import polish_roots
+from foldwing.stability.status import is_critical
 from support.random_aircraft import cessna, rigid_system
 from support.stability import example_modes, example_wing
 
