@@ -11,10 +11,12 @@ from foldwing.flight import (
     state_matrix,
 )
 from foldwing.flight.phugoid import drag_over_lift
-from foldwing.model import example_text, parse_flight
+from foldwing.model import example_text, parse_flight, parse_model
+from foldwing.studies.multibody import airframe_of, multibody_rows
 from support.aircraft import Nonlinear, airframe
 
 CESSNA = example_text("cessna-172")
+SEGMENTED = example_text("three-segment-aircraft")
 
 
 def by_derivatives(craft):
@@ -69,3 +71,16 @@ def test_nonlinear_flight_follows_the_path_of_a_small_motion(mode):
     for got, wanted in ((found.y[4], path.ahead), (found.y[5], path.altitude)):
         assert got / small == pytest.approx(wanted, abs=0.01 * np.abs(path.altitude).max())
     assert found.y[3] / small == pytest.approx(path.pitch, abs=1e-3 * np.abs(path.pitch).max())
+
+
+@pytest.mark.parametrize("change", ["", "elastic_axis = 0.35", 'chord = "7 cm"'])
+def test_a_wing_of_unlike_segments_flies_as_one_of_their_mean(change):
+    """Their quarter chords lie apart: the lift acts between them."""
+    root = 'span = "14 cm"\n'
+    wing = parse_model(SEGMENTED.replace(root, root + change + "\n"))
+    balanced = wing.aircraft.model_copy(update={"trim": "force-and-moment"})
+    folds = (0.0, 0.0)
+    bodies, *_ = multibody_rows(wing.carried_by(balanced), folds, (20.0,))
+    states = flight_modes(state_matrix(airframe_of(wing, folds, 20.0)))
+    for motion, wanted in zip(states, bodies.motions, strict=True):
+        assert motion.eigenvalue == pytest.approx(wanted.eigenvalue, rel=3e-3)

@@ -14,7 +14,7 @@ from foldwing.stability.loci import root_loci
 from foldwing.stability.problem import evaluate
 from foldwing.stability.still_air import still_air_roots
 from support.sections import RigidStrip
-from support.stability import of_kind
+from support.stability import of_kind, unstable_by
 from support.typical_section import TypicalSection as Reference
 
 GENERAL = TypicalSection(
@@ -199,3 +199,25 @@ def test_in_tune_where_two_modes_at_rest_have_one_frequency():
     for ratio in crossings:
         frequencies = SectionSystem(section.with_torsion(float(ratio))).frequency_ratios
         assert np.diff(frequencies).min() < 1e-9 < np.diff(frequencies).max()
+
+
+@pytest.mark.parametrize("beyond", [1e-2, 3e-3, 1e-3, 3e-4, 1e-4])
+def test_a_hump_between_two_points_of_the_sweep_is_found(beyond):
+    """A branch that grazes the real axis with the bend of another one that it nearly meets."""
+    section = TypicalSection(
+        mass_ratio=30.600040285,
+        inertia_ratio=0.120678549,
+        axis_offset=0.411889593,
+        mass_offset=0.022866877,
+        torsion_frequency_ratio=0.782351742 * (1.0 + beyond),
+        second_mass_ratio=0.921086593,
+        second_frequency_ratio=1.320417233,
+        analysis=Analysis(damping=0.01),
+    )
+    analysis = find_flutter(SectionSystem(section, "quasi-steady"), (0.0087, 17.0))
+    assert analysis.certified
+    strip, speeds = RigidStrip(section), np.geomspace(0.3, 3.0, 400)
+    listed = [unstable_by(analysis.points, speed, 0) for speed in speeds]
+    counted = [np.count_nonzero(strip.quasi_steady_roots(speed).real > 0.0) for speed in speeds]
+    assert listed == counted
+    assert counted.count(2) > 1

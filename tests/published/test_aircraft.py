@@ -1,7 +1,7 @@
 """Printed natural frequencies and eigenvalues of aircraft.
 
 I. Wang, Aeroelastic and Flight Dynamics Analysis of Folding Wing Systems, dissertation, Duke
-University, 2013, chapters 6 and 7. Our own figures, which an independent prototype gave as well,
+University, 2013, chapters 6 and 7. Our own figures, which an independent program gave as well,
 stand beside the printed ones and are met to their last digit.
 """
 
@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from foldwing.aeroelastic.wing import AeroelasticWing
-from foldwing.stability.flutter import find_flutter, is_critical
+from foldwing.stability.flutter import find_flutter
 from foldwing.stability.newton import polish_roots
+from foldwing.stability.status import is_critical
 from support.random_aircraft import cessna, rigid_system
 from support.stability import example_modes, example_wing
 
@@ -84,7 +85,7 @@ BOUNDARIES = {
 
 
 @pytest.mark.parametrize("folds", BOUNDARIES, ids=str)
-def test_boundaries_of_the_aircraft_agree_with_an_independent_prototype(folds):
+def test_boundaries_of_the_aircraft_agree_with_an_independent_program(folds):
     model = example_wing(NAME)
     modes = model.modes(tuple(np.radians(folds)))
     found = find_flutter(model.system(modes), (model.trim(modes).slowest, 45.0))

@@ -6,6 +6,7 @@ In metres and seconds, from quantities that the program never forms.
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import sqrtm
 from scipy.special import hankel2
 
 from foldwing.aerodynamics.strip import strip_forces
@@ -88,12 +89,17 @@ class RigidStrip:
         return T[np.ix_(self.kept, self.kept)]
 
     def quasi_steady_roots(self, speed_ratio):
-        """Return the eigenvalues over omega_1 of the state space with C = 1, no apparent mass."""
+        """Return the eigenvalues over omega_1 of the state space with C = 1, no apparent mass.
+
+        Structural damping is 2 zeta omega in every mode at rest, 2 zeta M (M^-1 K)^(1/2).
+        """
         U, kept = speed_ratio * self.b * self.omega1, np.ix_(self.kept, self.kept)
         M, K, D = (
             A[kept]
             for A in (self.mass, self.stiffness - U**2 * self.air.lag, -U * self.air.lag_rate)
         )
+        still = sqrtm(np.linalg.solve(M, self.stiffness[kept])).real
+        D = D + 2.0 * self.section.analysis.damping * M @ still
         zero, one = np.zeros_like(M), np.eye(len(M))
         A = np.block([[zero, one], [-np.linalg.solve(M, K), -np.linalg.solve(M, D)]])
         return np.linalg.eigvals(A) / self.omega1

@@ -27,6 +27,7 @@ from foldwing.maths.quadrature import gauss_rule
 from foldwing.model import Aircraft, Tail, Wing
 from foldwing.model.aircraft import QUARTER, quarter_chord
 from foldwing.structure.component import ComponentModes
+from foldwing.structure.mass_centres import mass_centres
 from foldwing.structure.modes import StructuralModes
 
 if TYPE_CHECKING:
@@ -69,14 +70,11 @@ def aircraft_trim(model: "AeroelasticWing", modes: StructuralModes) -> Trim:
         When no angle of attack lifts the weight.
     """
     wing, aircraft = model.wing, aircraft_of(model.wing)
-    mass, centre = wing.mass_and_centre
-    bodies = model.assembly.bodies
-    total = mass + sum(body.mass for body in bodies)
-    x_cg = (mass * centre + sum(body.mass * body.x for body in bodies)) / total
+    whole = mass_centres(modes)[-1]
     surfaces = lifting_surfaces(model, modes)
     air = wing.air.density, aircraft.largest_lift_coefficient
     balances = aircraft.trim == "force-and-moment"
-    return trim(surfaces, total * aircraft.gravity, x_cg, air, balances)
+    return trim(surfaces, whole.mass * aircraft.gravity, float(whole.position[0]), air, balances)
 
 
 def lifting_surfaces(model: "AeroelasticWing", modes: StructuralModes) -> LiftingSurfaces:
@@ -92,7 +90,7 @@ def lifting_surfaces(model: "AeroelasticWing", modes: StructuralModes) -> Liftin
     return LiftingSurfaces(
         slope=np.append(slope, on_tail),
         flat=np.append(half, on_tail),
-        place=np.append(place, tail.x + (QUARTER - tail.elastic_axis) * tail.chord),
+        place=np.append(place, tail.quarter_chord),
         area=np.append([segment.area for segment in wing.segments], tail.area),
         cosine=np.append(cosine, 1.0),
     )

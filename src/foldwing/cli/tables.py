@@ -122,7 +122,9 @@ def show_boundary(dataset: "xarray.Dataset") -> None:
 
 def _critical_cells(rows: "Sequence[FlutterRow]") -> list[str]:
     """Return the first point of instability of a case, and the others in short."""
-    critical = next((row for row in rows if row.is_critical), None)
+    from foldwing.results.summary import critical_row
+
+    critical = critical_row(rows)
     others = ", ".join(f"{row.speed:.1f} {_event(row)}" for row in rows if row is not critical)
     if critical is None:
         return ["-", "", "none", "", "", others]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.results.schema import fold_angle_names
-from foldwing.stability.status import ELASTIC
+from foldwing.stability.status import ELASTIC, is_critical, is_of_the_whole
 
 if TYPE_CHECKING:
     import xarray
@@ -84,12 +84,12 @@ class FlutterRow:
     @property
     def as_a_whole(self) -> bool:
         """Whether an aircraft oscillates as a whole here, which bounds no airspeed."""
-        return self.kind == "flutter" and self.motion != ELASTIC
+        return is_of_the_whole(self)
 
     @property
     def is_critical(self) -> bool:
         """Whether an instability that bounds the airspeed begins here."""
-        return self.event != "recovery" and not self.as_a_whole
+        return is_critical(self)
 
 
 def table_variables(rows: Sequence[FlutterRow]) -> dict[str, tuple[tuple[str, ...], Any]]:

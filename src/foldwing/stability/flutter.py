@@ -10,12 +10,10 @@ from foldwing.stability.certificate import Certificate
 from foldwing.stability.newton import Roots
 from foldwing.stability.problem import AeroelasticProblem
 from foldwing.stability.real_axis import mergers, real_axis_path
-from foldwing.stability.status import ELASTIC, FlutterPoint
+from foldwing.stability.status import FlutterPoint, is_critical
 from foldwing.stability.still_air import still_air_roots
 from foldwing.stability.sweep import Sweep, resolved_frequency, sweep
 from foldwing.stability.tracking import resolved_speed
-
-CRITICAL_EVENTS = ("onset", "merger")
 
 
 @dataclass(frozen=True)
@@ -73,12 +71,6 @@ class FlutterAnalysis:
         Oscillations of a whole aircraft (phugoid, short period) do not count.
         """
         return next(filter(is_critical, self.points), None)
-
-
-def is_critical(point: FlutterPoint) -> bool:
-    """Return whether a point begins an instability that bounds the airspeed."""
-    oscillates_as_a_whole = point.kind == "flutter" and point.motion != ELASTIC
-    return point.event in CRITICAL_EVENTS and not oscillates_as_a_whole
 
 
 def find_flutter(

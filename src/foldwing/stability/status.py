@@ -2,11 +2,42 @@
 
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Protocol
 
 from foldwing.maths.arrays import Complex, Real
 
 ELASTIC = "elastic"
 """Motion of a root that is not one of a whole aircraft."""
+
+
+CRITICAL_EVENTS = ("onset", "merger")
+"""Events with which an instability begins."""
+
+
+class Event(Protocol):
+    """What a flutter point is judged by, whether of a solver or of a table."""
+
+    @property
+    def kind(self) -> str:
+        """``flutter`` or ``divergence``."""
+
+    @property
+    def event(self) -> str:
+        """``onset``, ``recovery`` or ``merger``."""
+
+    @property
+    def motion(self) -> str:
+        """``elastic``, or the name of a motion of a whole aircraft."""
+
+
+def is_of_the_whole(point: Event) -> bool:
+    """Return whether an aircraft oscillates as a whole at a point, which bounds no airspeed."""
+    return point.kind == "flutter" and point.motion != ELASTIC
+
+
+def is_critical(point: Event) -> bool:
+    """Return whether an instability that bounds the airspeed begins at a point."""
+    return point.event in CRITICAL_EVENTS and not is_of_the_whole(point)
 
 
 class Status(IntEnum):

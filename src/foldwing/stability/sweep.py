@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foldwing.maths.arrays import Indices, Mask, Real
+from foldwing.maths.arrays import Complex, Indices, Mask, Real
 from foldwing.stability.certificate import Certificate, certify, count_unstable
 from foldwing.stability.crossings import (
     Crossings,
@@ -29,6 +29,9 @@ FINEST = 2e-5
 
 RESOLUTIONS = 14
 """Most rounds of refining the ray where a branch bends or comes near to the real axis."""
+
+STRAYS = 2.0
+"""How many times farther than estimated a branch may stray from a chord near the real axis."""
 
 WIDENINGS, WIDTH_SPEEDS = 10, 12
 """Most times that a region is doubled, and airspeeds at which its roots are compared."""
@@ -151,14 +154,15 @@ def _resolved(
     region: Region,
     speed_range: tuple[float, float],
 ) -> EigenvaluePath:
-    """Refine the ray where a branch bends sharply or comes near to the real axis and turns back."""
+    """Refine the ray where a branch bends sharply, or may reach the real axis and turn back."""
     for _ in range(RESOLUTIONS):
         ray = on_ray(path, region)
         t, s = path.parameter[ray], path.inverse[ray]
         wanted = in_range(path, s, speed_range)
-        steep = bend(path)[ray][: len(t) - 1] > 0.1
-        unclear = ((steep | crowded(s)) & wanted[:-1] & wanted[1:]).any(axis=1)
-        steps = np.flatnonzero(unclear | _touching(t, s.imag, wanted))
+        stray = bend(path)[ray][: len(t) - 1]
+        doubtful = (stray > 0.1) | crowded(s) | _grazing(s, stray)
+        unclear = (doubtful & wanted[:-1] & wanted[1:]).any(axis=1)
+        steps = np.flatnonzero(unclear)
         steps = steps[t[steps + 1] - t[steps] > FINEST]
         if len(steps) == 0:
             break
@@ -166,18 +170,12 @@ def _resolved(
     return path
 
 
-def _touching(t: Real, f: Real, wanted: Mask) -> Mask:
-    """Return the steps within which a branch of ``f`` (m, r) may reach zero and turn back.
+def _grazing(s: Complex, stray: Real) -> Mask:
+    """Return the steps in which a branch may reach the real axis and turn back, (m - 1, r).
 
-    The branch comes nearer to zero before the step and leaves it after; going on as it came, or
-    coming as it leaves, it would reach zero within the step.
+    Its chord ends on one side of the axis, nearer to it than the branch may stray from the chord.
     """
-    slope = np.diff(f, axis=0) / np.diff(t)[:, None]
-    start, end = np.abs(f[1:-2]), np.abs(f[2:-1])
-    sign = np.sign(f[1:-2])
-    before, after = sign * slope[:-2], sign * slope[2:]
-    width = (t[2:-1] - t[1:-2])[:, None]
-    dip = (np.sign(f[2:-1]) == sign) & (before < 0.0) & (after > 0.0)
-    near = (start + before * width < 0.0) | (end - after * width < 0.0)
-    inner = (dip & near & wanted[1:-2] & wanted[2:-1]).any(axis=1)
-    return np.concatenate([[False], inner, [False]])
+    angle = np.angle(s)
+    one_side = angle[:-1] * angle[1:] > 0.0
+    nearest = np.minimum(np.abs(angle[:-1]), np.abs(angle[1:]))
+    return np.asarray(one_side & (nearest <= STRAYS * stray))

@@ -1,7 +1,7 @@
 """Roots followed in airspeed by Newton continuation, many branches at once.
 
-Each branch has its own step: it is halved when the correction is large, when the eigenvector turns
-too far, or when Newton's method fails, and doubled when all goes well.
+Each branch has its own step: it is quartered when the correction is large, when the eigenvector
+turns too far, or when Newton's method fails, and doubled when all goes well.
 """
 
 from dataclasses import dataclass, replace
@@ -33,12 +33,11 @@ SAME_ROOT = 1e-7
 NEAR_REAL = 0.2
 """A branch lost with |Im| below this fraction of its modulus has reached the real axis."""
 
+SMALLEST_STEP_NEAR_REAL = 0.02
+"""The smallest step of a branch near the real axis, which it meets with ever steeper slope."""
+
 FAR_BEYOND = 1.5
 """Multiple of the highest reduced frequency at which a branch is no longer followed."""
-
-SMALLEST_STEP_NEAR_REAL = 0.02
-"""The same for a branch near the real axis, which it meets with ever steeper slope."""
-
 
 BORN = -1
 """In place of a mode: the branch starts from none; it was born of two real roots."""

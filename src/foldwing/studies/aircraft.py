@@ -95,9 +95,9 @@ def _clamped(
 
 
 def _speeds(case: Case, clamped: Case | None) -> Real:
-    choices = [picture_speeds(one.analysis) for one in (case, clamped) if one is not None]
-    critical = [one for one in (case, clamped) if one is not None and one.analysis.critical]
-    return max(choices, key=lambda speeds: float(speeds[-1]) if critical else 0.0)
+    solved = [one.analysis for one in (case, clamped) if one is not None]
+    bounded = [analysis for analysis in solved if analysis.critical is not None]
+    return max(map(picture_speeds, bounded or solved), key=lambda speeds: float(speeds[-1]))
 
 
 def trim_parts(

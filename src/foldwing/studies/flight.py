@@ -26,6 +26,7 @@ from foldwing.maths.arrays import Real
 from foldwing.model import Airframe, FlightModel, StateMatrixModel
 from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
+from foldwing.studies.speeds import LEAST_SPEED, MOST_SPEED
 
 if TYPE_CHECKING:
     import xarray
@@ -37,7 +38,6 @@ METHODS = {
 }
 """One line on how the numbers were computed, by form of the model."""
 
-LEAST_SPEED, MOST_SPEED = 1e-3, 1e5
 ROOTS = 4
 
 PER_MOTION = ("period", "damping_ratio", "time_to_half", "time_to_double", "cycles")

@@ -11,7 +11,8 @@ from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
 from foldwing.flight import ModeRow, mode_row
 from foldwing.model import Air, Aircraft, Airframe, Fuselage, Segment, Surface, Tail, Wing
-from foldwing.model.aircraft import QUARTER, quarter_chord
+from foldwing.model.aircraft import QUARTER
+from foldwing.structure.mass_centres import mass_centres
 from foldwing.studies.flight import check_flight_speed
 from foldwing.studies.grid import radians
 
@@ -28,7 +29,8 @@ def airframe_of(wing: Wing, folds: tuple[float, ...], speed: float | None) -> Ai
     Parameters
     ----------
     wing : Wing
-        Of an aircraft. A wing of several chords is given their mean.
+        Of an aircraft. A wing of several chords is given their mean, with its quarter chord where
+        the lift acts.
     folds : tuple of float
         psi_2 .. psi_N in degrees; a folded wing lifts less, see `foldwing.aeroelastic.trim`.
     speed : float or None
@@ -49,20 +51,19 @@ def airframe_of(wing: Wing, folds: tuple[float, ...], speed: float | None) -> Ai
     model = AeroelasticWing(wing)
     modes = model.modes(radians(folds))
     level, density = model.trim(modes), wing.air.density
-    mass = level.weight / aircraft.gravity
+    whole = mass_centres(modes)[-1]
     pitch = modes.section_motion(0, np.zeros(1)).twist[0, modes.names.index("pitch")]
     area = sum(segment.area for segment in wing.segments)
     span = sum(segment.span for segment in wing.segments)
-    tail, ahead = aircraft.tail, quarter_chord(wing.segments[0])
-    own, centre = wing.mass_and_centre
-    moment = own * centre + sum(body.mass * body.x for body in model.assembly.bodies)
-    slope = 2.0 * float(level.surfaces.slope[:-1].sum()) / (density * area)
+    tail, slopes = aircraft.tail, level.surfaces.slope[:-1]
+    lift_at = float(slopes @ level.surfaces.place[:-1] / slopes.sum())
+    slope = 2.0 * float(slopes.sum()) / (density * area)
     return Airframe(
-        mass=2.0 * mass,
+        mass=2.0 * whole.mass,
         pitch_inertia=2.0 / float(pitch) ** 2,
         speed=at,
-        centre_of_gravity=moment / mass - ahead,
-        tail_arm=tail.quarter_chord - ahead,
+        centre_of_gravity=float(whole.position[0]) - lift_at,
+        tail_arm=tail.quarter_chord - lift_at,
         wing=Surface(span=2.0 * span, chord=area / span, lift_slope=slope),
         tail=Surface(span=2.0 * tail.span, chord=tail.chord, lift_slope=tail.lift_slope),
         drag=False,

@@ -20,6 +20,7 @@ from foldwing.stability.status import Status
 from foldwing.studies.failures import NUMERICAL_FAILURES
 from foldwing.studies.grid import radians, swept_hinge
 from foldwing.studies.modes import fold_coordinates
+from foldwing.studies.speeds import LEAST_SPEED, MOST_SPEED
 
 if TYPE_CHECKING:
     import xarray
@@ -28,8 +29,6 @@ METHOD = "steady vortex lattice"
 
 MOST_DEGREES = 20.0
 """Angle of attack beyond which every wing has stalled and a linear theory says nothing."""
-
-LEAST_SPEED, MOST_SPEED = 1e-3, 1e5
 
 OPEN, CLOSED = "open", "closed"
 
