@@ -18,7 +18,7 @@ from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.maths.arrays import Complex, Indices, Real
 from foldwing.stability.flutter import FlutterAnalysis
 from foldwing.stability.newton import Roots, polish_roots
-from foldwing.stability.status import ELASTIC, FlutterPoint
+from foldwing.stability.status import BODY_FREEDOM, FlutterPoint
 from foldwing.stability.tracking import branches_at, record
 
 PHUGOID, SHORT_PERIOD = "phugoid", "short period"
@@ -43,6 +43,9 @@ FASTEST_SHORT_PERIOD = 2.0
 
 SAME_ROOT = 1e-4
 """Relative difference below which a flutter point lies on a followed branch."""
+
+RIGID = 0.9
+"""Share of the kinetic energy in rigid motions from which on the aircraft moves as a whole."""
 
 BESIDE, BESIDE_MERGER = 1e-3, 0.3
 """How far below a merger the pair is compared with it, and how much they may differ there."""
@@ -200,8 +203,7 @@ def with_motions(
 ) -> FlutterAnalysis:
     """Return the analysis with each point of phugoid or short period named after it.
 
-    A merger belongs to the pair that turns real there. Beyond it a phugoid may be born again, which
-    no branch leads to: it is known by its nature.
+    A merger belongs to the pair that turns real there.
     """
     doubtful = [index for index, point in enumerate(analysis.points) if _is_doubtful(point)]
     if not doubtful:
@@ -212,10 +214,9 @@ def with_motions(
     values = np.empty((len(at), len(modes.names)), complex)
     values[order] = modes.eigenvalues(system, at[order])
     for index, row in zip(doubtful, values, strict=True):
-        motion = _motion(points[index], row, system.half_chord, modes.names)
-        if motion == ELASTIC and _is_reborn(points[index], system, modes):
-            motion = PHUGOID
-        points[index] = replace(points[index], motion=motion)
+        origin = _branch(points[index], row, system.half_chord, modes.names)
+        motion = _motion(points[index], origin, system, modes)
+        points[index] = replace(points[index], motion=motion, origin=origin)
     return replace(analysis, points=tuple(points))
 
 
@@ -226,26 +227,32 @@ def _is_doubtful(point: FlutterPoint) -> bool:
     return point.event == "merger"
 
 
-def _is_reborn(point: FlutterPoint, system: AeroelasticSystem, modes: FlightModes) -> bool:
-    """Return whether a point is as slow as a phugoid, and moves the aircraft as a whole."""
+def _motion(point: FlutterPoint, origin: str, system: AeroelasticSystem, modes: FlightModes) -> str:
+    """Return what moves at a point: the aircraft as a whole, its wing, or both.
+
+    One that moves as a whole but lies on no branch is named by how fast it is: beyond its merger
+    the phugoid may be born again.
+    """
     if point.kind != "flutter":
-        return False
-    omega = abs(point.p) * point.speed / system.half_chord
+        return origin or point.motion
     at = np.array([point.p]), np.array([point.speed]), point.vector[None]
     energy = np.abs(system.modal_vectors(*at)[0]) ** 2
-    whole = float(energy[system.rigid].sum() / energy.sum())
-    return omega <= modes.fastest_phugoid(point.speed) and whole > 0.5
+    if float(energy[system.rigid].sum() / energy.sum()) < RIGID:
+        return BODY_FREEDOM if origin else point.motion
+    omega = abs(point.p) * point.speed / system.half_chord
+    slow = omega <= modes.fastest_phugoid(point.speed)
+    return origin or (PHUGOID if slow else SHORT_PERIOD)
 
 
 def _compared_at(point: FlutterPoint) -> float:
     return point.speed * (1.0 - BESIDE) if point.event == "merger" else point.speed
 
 
-def _motion(point: FlutterPoint, values: Complex, b: float, names: tuple[str, ...]) -> str:
-    """Return the name of the branch that a point lies on, else what it is called already."""
+def _branch(point: FlutterPoint, values: Complex, b: float, names: tuple[str, ...]) -> str:
+    """Return the name of the branch that a point lies on, empty when it lies on none."""
     distance = np.abs(values * b / (point.speed * point.p) - 1.0)
     limit = BESIDE_MERGER if point.event == "merger" else SAME_ROOT
     distance = np.where(np.isfinite(distance), distance, np.inf)
     if not names or distance.min() >= limit:
-        return point.motion
+        return ""
     return names[int(distance.argmin())]

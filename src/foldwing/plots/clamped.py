@@ -24,9 +24,11 @@ from foldwing.plots.level_flight import (
     without_neutral,
 )
 from foldwing.plots.picture import Item, Panel, Picture, Range
+from foldwing.results.aircraft_summary import statically_unstable
 from foldwing.results.aircraft_table import clamped_rows
+from foldwing.results.cases import fold_text
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
-from foldwing.results.summary import critical_row, fold_text
+from foldwing.results.summary import critical_row
 
 if TYPE_CHECKING:
     import xarray
@@ -54,7 +56,9 @@ def beside_clamped(dataset: "xarray.Dataset") -> Picture | None:
     fixed, free = fixed.below(top), free.below(top)
     growth = focused(np.concatenate([fixed.growth, free.growth], axis=1), _DEPTH)
     events = clamped_rows(dataset) or [], flutter_rows(dataset)
-    headings = (f"clamped: {_first(events[0])}", f"in flight: {_first(events[1])}")
+    unstable = bool(statically_unstable(dataset))
+    in_flight = "diverges from the start" if unstable else _first(events[1])
+    headings = (f"clamped: {_first(events[0])}", f"in flight: {in_flight}")
     sides = (fixed, ()), (free, (growth, (-0.03 * top, top)))
     columns = [
         _column(side, (growth, top), [out_of_reach(dataset, side.limits, y) for y in hatched])
@@ -74,7 +78,9 @@ def beside_clamped(dataset: "xarray.Dataset") -> Picture | None:
     ]
     return Picture(
         "aircraft-beside-clamped",
-        _story(*events),
+        "In flight it is statically unstable: divergence at every airspeed"
+        if unstable
+        else _story(*events),
         subtitle(dataset, fold_text(dataset, 0)) + ". Left the wing with its root clamped, right "
         "the aircraft: the same axes, and the same mode in the same colour. Above zero (shaded) a "
         f"motion grows. Modes that stay above {top:.3g} Hz are not shown."

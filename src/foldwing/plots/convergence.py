@@ -19,9 +19,9 @@ from foldwing.plots.picture import (
     Rule,
     padded,
 )
+from foldwing.results.cases import fold_text
 from foldwing.results.convergence_table import TARGET, TITLES, Levels, levels_by_setting
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
-from foldwing.results.summary import fold_text
 
 if TYPE_CHECKING:
     import xarray

@@ -7,8 +7,8 @@ import numpy as np
 
 from foldwing.plots.layout import PANEL_INCHES, subject, subtitle, threshold
 from foldwing.plots.picture import Array, Bars, Note, Panel, Picture, Rule
+from foldwing.results.cases import fold_text
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
-from foldwing.results.summary import fold_text
 
 if TYPE_CHECKING:
     import xarray

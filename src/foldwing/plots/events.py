@@ -55,7 +55,7 @@ def hover_text(row: FlutterRow, units: Units = SI) -> str:
     parts = [f"<b>{words(row)}</b>", f"{row.speed:.4g} {units.speed}"]
     if row.kind == "flutter":
         parts += [f"{row.frequency:.4g} {units.frequency}"]
-        parts += [f"mode {row.mode_name}"] if row.motion == ELASTIC else []
+        parts += [f"mode {row.mode_name}"] if not row.as_a_whole else []
         parts += [row.classification] if row.classification else []
         if math.isfinite(row.strength):
             parts.append(f"strength {row.strength:.3g} {units.strength}")
@@ -87,7 +87,7 @@ def event_marks(
     groups: dict[tuple[str, str, str, str], list[int]] = {}
     for index, row in enumerate(rows):
         label = words(row)
-        if by_mode and row.kind == "flutter" and row.motion == ELASTIC:
+        if by_mode and row.kind == "flutter" and not row.as_a_whole:
             label += f", mode {row.mode_name}"
         key = (row.kind, row.event, label, color_of(row, colors))
         groups.setdefault(key, []).append(index)

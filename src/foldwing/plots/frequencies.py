@@ -18,7 +18,7 @@ from foldwing.plots.picture import (
     Range,
     padded,
 )
-from foldwing.results.summary import fold_text
+from foldwing.results.cases import fold_text
 
 if TYPE_CHECKING:
     import xarray

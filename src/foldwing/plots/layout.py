@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from foldwing.plots.picture import Array, Dash, Note, Range, padded, spread
+from foldwing.results.cases import degrees
 from foldwing.results.schema import fold_angle_names
-from foldwing.results.summary import degrees
 
 if TYPE_CHECKING:
     import xarray

@@ -25,7 +25,7 @@ from foldwing.plots.picture import (
     Surface,
 )
 from foldwing.plots.shapes import box_around, sheets, signs
-from foldwing.results.summary import fold_text
+from foldwing.results.cases import fold_text
 
 if TYPE_CHECKING:
     import xarray

@@ -39,7 +39,8 @@ from foldwing.plots.picture import (
     spread,
 )
 from foldwing.results.aircraft_table import MOTIONS
-from foldwing.results.summary import fold_text, unresolved_below
+from foldwing.results.cases import fold_text
+from foldwing.results.summary import unresolved_below
 
 if TYPE_CHECKING:
     import xarray

@@ -10,8 +10,8 @@ from foldwing.plots.layout import subtitle
 from foldwing.plots.level_flight import slowest
 from foldwing.plots.picture import Array, Item, Note, Panel, Picture, Range, Rule, padded
 from foldwing.results.aircraft_table import MOTIONS, motions_found
+from foldwing.results.cases import fold_text
 from foldwing.results.flutter_table import FlutterRow
-from foldwing.results.summary import fold_text
 
 if TYPE_CHECKING:
     import xarray

@@ -16,6 +16,7 @@ from foldwing.results.aircraft_table import (
     points_table,
     trim_table,
 )
+from foldwing.results.cases import degrees, fold_text
 from foldwing.results.flight_table import (
     derivatives_table,
     models_table,
@@ -27,7 +28,7 @@ from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
 from foldwing.results.section_table import changes_table, section_points_table
 from foldwing.results.steady_table import legend, loads_table, segments_table
-from foldwing.results.summary import answer, certificate, degrees, fold_text, warnings
+from foldwing.results.summary import answer, certificate, warnings
 from foldwing.stability.status import ELASTIC
 
 if TYPE_CHECKING:

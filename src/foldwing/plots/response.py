@@ -7,7 +7,7 @@ import numpy as np
 from foldwing.plots.layout import subtitle
 from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import Array, Item, Line, Panel, Picture, Range
-from foldwing.results.summary import fold_text
+from foldwing.results.cases import fold_text
 
 if TYPE_CHECKING:
     import xarray

@@ -8,8 +8,8 @@ import numpy as np
 from foldwing.plots import bodies
 from foldwing.plots.layout import subject, subtitle
 from foldwing.plots.picture import Array, Picture, Range, Scene, SceneItem, Surface, Tag, Thread
+from foldwing.results.cases import fold_text
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
-from foldwing.results.summary import fold_text
 
 if TYPE_CHECKING:
     import xarray

@@ -24,7 +24,7 @@ from foldwing.plots.picture import (
     padded,
 )
 from foldwing.plots.shapes import _size, box_around, signs
-from foldwing.results.summary import degrees, fold_text
+from foldwing.results.cases import degrees, fold_text
 
 if TYPE_CHECKING:
     import xarray

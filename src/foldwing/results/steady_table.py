@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from foldwing.results.cases import degrees
 from foldwing.results.schema import fold_angle_names
-from foldwing.results.summary import degrees
 from foldwing.results.writing import write_table
 
 if TYPE_CHECKING:

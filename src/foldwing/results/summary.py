@@ -6,11 +6,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from foldwing.results.aircraft_summary import (
+    elastic_from_start,
+    level_flight,
+    short_period,
+    statically_unstable,
+    unstable_motions,
+)
+from foldwing.results.cases import degrees, fold_text
 from foldwing.results.changes import changes_text
 from foldwing.results.convergence_table import convergence_answer
 from foldwing.results.flight_summary import flight_answer
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
-from foldwing.results.schema import fold_angle_names
 from foldwing.results.units import SI, Units, units_of
 from foldwing.stability.status import Status
 
@@ -74,21 +81,6 @@ def critical_row(rows: Sequence[FlutterRow]) -> FlutterRow | None:
     return min(onsets, key=lambda row: row.speed, default=None)
 
 
-def fold_text(dataset: "xarray.Dataset", case: int) -> str:
-    """Return the fold angles of a case, e.g. ``fold 30°, −30°``; empty without hinges."""
-    angles = [float(dataset[name][case]) for name in fold_angle_names(dataset)]
-    if "torsion_frequency_ratio" in dataset.coords:
-        return f"torsion frequency ratio {float(dataset['torsion_frequency_ratio'][case]):.4g}"
-    if not angles:
-        return "" if dataset.sizes["fold"] == 1 else f"case {case}"
-    return "fold " + ", ".join(degrees(angle) for angle in angles)
-
-
-def degrees(angle: float) -> str:
-    """Return an angle as text, e.g. ``−30°``."""
-    return f"{angle + 0.0:g}°".replace("-", "−")
-
-
 def _modes_answer(dataset: "xarray.Dataset") -> str:
     frequencies = dataset["natural_frequency"].values
     if not np.isfinite(frequencies).any():
@@ -136,25 +128,11 @@ def _flutter_answer(dataset: "xarray.Dataset") -> str:
     again = _onset_after_hump(first["flutter"], rows, units)
     if again is not None:
         parts.insert(1, again)
-    already = _unstable_from_start(dataset)
+    already = statically_unstable(dataset) + _unstable_from_start(dataset)
     if parts:
         text = "; ".join(parts)
         return f"{already}{text[0].upper()}{text[1:]}."
     return already or _nothing_found(dataset)
-
-
-def unstable_motions(dataset: "xarray.Dataset") -> str:
-    """Return which oscillations of an aircraft are beyond the boundary from the start on."""
-    if "unstable_motions" not in dataset or not (dataset["unstable_motions"].values != "").any():
-        return ""
-    lists = [text.split(", ") for text in dataset["unstable_motions"].values.tolist() if text]
-    names = " and ".join(dict.fromkeys(name for names in lists for name in names))
-    cases = (
-        "" if dataset.sizes["fold"] == 1 else f" in {len(lists)} of {dataset.sizes['fold']} cases"
-    )
-    lowest = float(dataset.attrs.get("speed_floor", np.nan))
-    since = f" from {lowest:.3g} m/s on" if dataset.sizes["fold"] == 1 else " from the start"
-    return f"The {names} grows slowly{since}{cases}; that bounds no airspeed."
 
 
 def _unstable_from_start(dataset: "xarray.Dataset") -> str:
@@ -164,27 +142,18 @@ def _unstable_from_start(dataset: "xarray.Dataset") -> str:
     """
     if "unstable_from_start" not in dataset:
         return ""
-    already = _elastic_from_start(dataset) > 0
+    already = elastic_from_start(dataset) > 0
     if not already.any():
         return ""
     lowest = float(dataset.attrs.get("speed_floor", np.nanmax(dataset["valid_from"].values)))
     unit = units_of(dataset).speed
     if dataset.sizes["fold"] > 1:
         who = f"{int(already.sum())} of {already.size} cases are"
-        return f"{who} beyond the boundary from the lowest airspeed, {lowest:.3g} {unit}, on. "
-    count = int(_elastic_from_start(dataset)[0])
+        where = "" if "slowest_speed" in dataset else f", {lowest:.3g} {unit},"
+        return f"{who} beyond the boundary from the lowest airspeed{where} on. "
+    count = int(elastic_from_start(dataset)[0])
     roots = "1 root is" if count == 1 else f"{count} roots are"
     return f"{roots} beyond the boundary from the lowest airspeed, {lowest:.3g} {unit}, on. "
-
-
-def _elastic_from_start(dataset: "xarray.Dataset") -> "np.ndarray[tuple[int], np.dtype[np.int64]]":
-    """Return the number of unstable roots at the lowest airspeed less those of the aircraft."""
-    counts: np.ndarray[tuple[int], np.dtype[np.int64]] = dataset["unstable_from_start"].values
-    if "unstable_motions" not in dataset:
-        return counts
-    names = dataset["unstable_motions"].values.tolist()
-    of_aircraft = [2 * len(text.split(", ")) if text else 0 for text in names]
-    return np.asarray(counts - np.array(of_aircraft, np.int64))
 
 
 def _boundary_answer(dataset: "xarray.Dataset") -> str:
@@ -243,7 +212,8 @@ def _onset_after_hump(
     later = [
         row
         for row in rows
-        if row.kind == "flutter" and row.event == "onset" and row.speed > first.speed
+        if row.kind == "flutter" and row.event == "onset" and row.is_critical
+        if row.speed > first.speed
     ]
     return (
         f"flutter again from {later[0].speed:.3g} {units.speed} (mode {later[0].mode_name})"
@@ -296,38 +266,6 @@ def warnings(dataset: "xarray.Dataset") -> list[str]:
                 cases.setdefault(remark, []).append(case)
         parts += [_remark(dataset, those, remark) for remark, those in cases.items()]
     return [part for part in parts if part]
-
-
-def short_period(dataset: "xarray.Dataset") -> str:
-    """Return from where on the short period of an aircraft grows, or nothing."""
-    rows = [
-        row
-        for row in flutter_rows(dataset)
-        if row.motion == "short period" and row.kind == "flutter" and row.event == "onset"
-    ]
-    if not rows:
-        return ""
-    first = min(rows, key=lambda row: row.speed)
-    where = _in_brackets(fold_text(dataset, first.case)) if dataset.sizes["fold"] > 1 else ""
-    text = f"The short period grows from {first.speed:.3g} m/s on at {first.frequency:.3g} Hz"
-    return f"{text}{where}. It is listed but not called critical: see to it by control or trim."
-
-
-def level_flight(dataset: "xarray.Dataset") -> str:
-    """Return below which airspeed an aircraft needs more lift than there can be, or nothing."""
-    if "slowest_speed" not in dataset:
-        return ""
-    slowest = dataset["slowest_speed"].values
-    slowest = slowest[np.isfinite(slowest)]
-    if not slowest.size:
-        return ""
-    low, high = f"{slowest.min():.3g}", f"{slowest.max():.3g}"
-    span = f"{low} m/s" if low == high else f"{low} to {high} m/s, by fold angles,"
-    largest = float(dataset["slowest_speed"].attrs["lift_coefficient"])
-    text = f"Level flight below {span} needs a lift coefficient above {largest:g}: out of reach."
-    if slowest.max() < float(dataset.attrs.get("speed_limit", np.inf)):
-        return text
-    return f"{text} That is above the airspeeds searched, where the result stands for no flight."
 
 
 def _remark(dataset: "xarray.Dataset", cases: Sequence[int], remark: str) -> str:

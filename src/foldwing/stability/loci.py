@@ -160,11 +160,19 @@ def root_loci(
     )
 
 
+OVERDAMPED = 0.02
+"""Ratio of Im to modulus below which a motion of a whole aircraft no longer oscillates."""
+
+
 def _with_further(problem: AeroelasticProblem, loci: Loci, further: Further) -> Loci:
     for index in range(len(further.roots.p)):
         root = branches_at(problem, further.roots.take(np.array([index])))
         loci = _with_branch(problem, loci, root, further.beginning.until, BORN - 1 - index)
-    return loci
+    value = loci.eigenvalue
+    with np.errstate(invalid="ignore"):
+        still = (loci.mode < BORN) & (value.imag < OVERDAMPED * np.abs(value))
+    status = np.where(still, Status.LEFT_DOMAIN, loci.status)
+    return replace(loci, eigenvalue=np.where(still, complex(np.nan, 0.0), value), status=status)
 
 
 def _with_born_pairs(

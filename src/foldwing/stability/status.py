@@ -10,6 +10,10 @@ ELASTIC = "elastic"
 """Motion of a root that is not one of a whole aircraft."""
 
 
+BODY_FREEDOM = "body freedom"
+"""Motion of a root that belongs to a motion of a whole aircraft, but bends the wing as it crosses
+the boundary: body-freedom flutter."""
+
 CRITICAL_EVENTS = ("onset", "merger")
 """Events with which an instability begins."""
 
@@ -32,7 +36,7 @@ class Event(Protocol):
 
 def is_of_the_whole(point: Event) -> bool:
     """Return whether an aircraft oscillates as a whole at a point, which bounds no airspeed."""
-    return point.kind == "flutter" and point.motion != ELASTIC
+    return point.kind == "flutter" and point.motion not in (ELASTIC, BODY_FREEDOM)
 
 
 def is_critical(point: Event) -> bool:
@@ -129,7 +133,9 @@ class FlutterPoint:
         1 when the root was followed down to low speed; else that share, below 1.
     motion : str
         ``elastic``, or the name of a motion of a whole aircraft that the root belongs to: its
-        oscillations are listed, but never critical.
+        oscillations are listed, but never critical; ``body freedom`` when the wing takes part.
+    origin : str
+        Name of the motion of a whole aircraft on whose branch the point lies, empty otherwise.
     """
 
     kind: str
@@ -145,3 +151,4 @@ class FlutterPoint:
     mode: int = -1
     mode_confidence: float = 0.0
     motion: str = ELASTIC
+    origin: str = ""

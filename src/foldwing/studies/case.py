@@ -11,8 +11,10 @@ from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Complex
+from foldwing.results.aircraft_summary import DIVERGENCE
 from foldwing.results.flutter_table import FlutterRow
 from foldwing.stability.flutter import FlutterAnalysis, find_flutter, lowest_resolved
+from foldwing.stability.real_axis import real_axis_path, real_roots
 from foldwing.stability.status import ELASTIC, FlutterPoint, Status
 from foldwing.structure.modes import StructuralModes
 from foldwing.studies.flight_level import Flight
@@ -65,14 +67,21 @@ class Case:
 
     @property
     def unstable_motions(self) -> tuple[str, ...]:
-        """Oscillations of an aircraft beyond the boundary at the lowest airspeed already."""
+        """Motions of an aircraft beyond the boundary at the lowest airspeed already.
+
+        Oscillations by their names, and ``divergence`` for each real root that grows.
+        """
         if self.flight is None:
             return ()
         lowest = np.array(self.analysis.speed_range[:1])
         found = self.flight.modes
         value = found.eigenvalues(self.system, lowest)[0]
         beyond = value.real + self.analysis.threshold * value.imag > 0.0
-        return tuple(name for name, out in zip(found.names, beyond, strict=True) if out)
+        edge = self.analysis.sweep.region.edge
+        path = real_axis_path(self.system, self.analysis.speed_range[1], edge)
+        growing = len(real_roots(self.system, path, lowest)[0].p)
+        names = [name for name, out in zip(found.names, beyond, strict=True) if out]
+        return (*names, *[DIVERGENCE] * growing)
 
     @property
     def status(self) -> Status:
@@ -96,6 +105,11 @@ class Case:
         return self.system.modal_vectors(p, speed, x)
 
 
+def _name(point: FlutterPoint, names: Sequence[str]) -> str:
+    """Return the name of the mode, or of the motion of an aircraft, that a point belongs to."""
+    return point.origin or (names[point.mode] if point.motion == ELASTIC else point.motion)
+
+
 def flutter_row(
     point: FlutterPoint,
     case: int,
@@ -114,7 +128,7 @@ def flutter_row(
         frequency=point.frequency,
         strength=point.strength,
         branch=point.branch,
-        mode_name=names[point.mode] if point.motion == ELASTIC else point.motion,
+        mode_name=_name(point, names),
         mode_confidence=point.mode_confidence,
         threshold=threshold,
         residual=point.residual,

@@ -7,6 +7,7 @@ from foldwing.aeroelastic.flight_modes import FlightModes, flight_modes
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.aeroelastic.trim import Trim
 from foldwing.aeroelastic.wing import AeroelasticWing
+from foldwing.errors import InputError
 from foldwing.stability.loci import Further
 from foldwing.stability.tracking import Beginning
 from foldwing.structure.modes import StructuralModes
@@ -38,12 +39,24 @@ class Flight:
         system: AeroelasticSystem,
         speed_range: tuple[float, float],
     ) -> "Flight":
-        """Return the level flight of an aircraft between two airspeeds in m/s."""
+        """Return the level flight of an aircraft between two airspeeds in m/s.
+
+        Raises
+        ------
+        InputError
+            When it cannot fly level at any of them.
+        """
         level, gravity = model.trim(modes), aircraft_of(model.wing).gravity
         slow, fast = speed_range
-        reachable = level.slowest < fast
-        limits = (max(slow, level.slowest) if reachable else slow), fast
-        return Flight(level, flight_modes(system, limits, gravity), limits, _warning(level, fast))
+        if level.slowest >= fast:
+            limit = (
+                f"level flight needs {level.slowest:.4g} m/s or more, for a lift coefficient of "
+                f"{level.largest:g}"
+            )
+            remedy = "Look at higher airspeeds, or raise aircraft.largest_lift_coefficient."
+            raise InputError("highest airspeed", fast, limit, remedy)
+        limits = max(slow, level.slowest), fast
+        return Flight(level, flight_modes(system, limits, gravity), limits, _warning(level))
 
     def further(self, system: AeroelasticSystem) -> Further:
         """Return what the loci of an aircraft have besides those of a clamped wing."""
@@ -51,10 +64,7 @@ class Flight:
         return Further(self.modes.roots, Beginning(system.partly_carried(until), until))
 
 
-def _warning(level: Trim, fast: float) -> str:
-    """Return what trim asks for more lift than there can be."""
-    where = f"below {level.slowest:.3g} m/s" if level.slowest < fast else f"up to {fast:.3g} m/s"
+def _warning(level: Trim) -> str:
+    """Return below which airspeed trim asks for more lift than there can be."""
     needs = f"needs a lift coefficient above {level.largest:g}"
-    if level.slowest < fast:
-        return f"Level flight {where} {needs} and is out of reach."
-    return f"Level flight {where} {needs} and is out of reach; the result stands for none."
+    return f"Level flight below {level.slowest:.3g} m/s {needs} and is out of reach."

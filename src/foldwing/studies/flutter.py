@@ -205,6 +205,7 @@ def search_attributes(model: AeroelasticWing, speeds: tuple[float, float]) -> Va
         "speed_limit": speeds[1],
         "damping": analysis.damping,
         "damping_threshold": analysis.damping_threshold,
+        **({} if model.wing.aircraft is None else {"trim": model.wing.aircraft.trim}),
     }
 
 

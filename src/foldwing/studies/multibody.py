@@ -118,6 +118,7 @@ def _wing_of(airframe: Airframe) -> Wing:
             lift_slope=tail.slope,
         ),
         gravity=airframe.gravity,
+        trim="force-and-moment",
         wing_aerodynamics="quasi-steady",
         tail_aerodynamics="quasi-steady",
         cruise_speed=airframe.speed,
