@@ -266,3 +266,60 @@ def test_the_trim_of_a_sweep_has_a_line_for_each_case_and_surface(cli, empty_fol
     np.testing.assert_array_equal(given, dataset["lift_share"].values)
     np.testing.assert_allclose(given.sum(axis=1), 1.0)
     assert not (empty_folder / "r" / "motions.csv").exists()
+
+
+def changed(folder, **texts):
+    """Write the shipped aircraft with other lines, and return its name."""
+    text = example_text(AIRCRAFT)
+    for key, value in texts.items():
+        start = text.index(f"\n{key} = ") + 1
+        text = text[:start] + f"{key} = {value}" + text[text.index("\n", start) :]
+    (folder / "changed.toml").write_text(text)
+    return "changed.toml"
+
+
+def test_a_statically_unstable_aircraft_says_so(cli, empty_folder):
+    model = changed(empty_folder, centre_of_gravity='"8 cm"')
+    margin = cli("flight", model, "--speed", "20", "--json").json["static_margin"]
+    assert margin < 0.0
+    answer = cli("aircraft", model, "--json").json
+    assert "divergence" in answer["unstable_motions"]
+    assert answer["certified"] is True
+    told = cli("aircraft", model, "--no-plot", "--out", "u").out
+    assert "statically unstable" in " ".join(told.split())
+
+
+def test_no_search_where_there_is_no_level_flight(cli):
+    answer = cli("aircraft", AIRCRAFT, "--max-speed", "5")
+    assert answer.status == 2
+    for words in ("got 5.0", "level flight needs 10.7", "largest_lift_coefficient"):
+        assert words in " ".join(answer.err.split())
+    sweep = cli("boundary", AIRCRAFT, "--fold3", "-60:60:60", "--max-speed", "5", "--json")
+    assert sweep.status == 1
+    assert all("level flight needs" in case["message"] for case in sweep.json["cases"])
+
+
+def test_body_freedom_flutter_is_critical(cli, empty_folder):
+    """A broad root and slender outer segments: the short period bends the wing as it grows."""
+    text = example_text(AIRCRAFT)
+    for old, new in (
+        ('chord = "5 cm"\nthickness', 'chord = "12 cm"\nthickness'),
+        ('span = "10 cm"\n', 'span = "10 cm"\nchord = "4 cm"\n'),
+        ('span = "6 cm"\n', 'span = "16 cm"\nchord = "4 cm"\n'),
+        ('spacing = "15 mm"', 'spacing = "10 mm"'),
+        ('centre_of_gravity = "1.25 cm"', 'centre_of_gravity = "1 cm"\ntrim = "force-and-moment"'),
+        ('span = "7.5 cm"', 'span = "3 cm"'),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    (empty_folder / "broad.toml").write_text(text)
+    answer = cli("aircraft", "broad.toml", "--fold", "0,0", "--json").json
+    both = [p for p in answer["flutter_points"] if p.get("motion") == "body freedom"]
+    assert [p["mode"] for p in both] == ["short period"] * len(both)
+    first = next(p for p in both if p["event"] == "onset")
+    assert first["speed"] == pytest.approx(38.81, abs=0.01)
+    capped = cli("aircraft", "broad.toml", "--fold", "0,0", "--drop-mode", "B3", "--json").json
+    onsets = [p for p in capped["flutter_points"] if p["event"] in ("onset", "merger")]
+    of_whole = ("phugoid", "short period")
+    bounding = [p for p in onsets if p["kind"] != "flutter" or p.get("motion") not in of_whole]
+    assert capped["critical"] == min(bounding, key=lambda p: p["speed"])

@@ -30,7 +30,7 @@ OPTIONS = {
     | {"--measured", "--trace", "--jobs", "--clamped"},
     "convergence": OF_A_MODEL | OF_A_SEARCH | {"--vary", "--levels", "--jobs", "--clamped"},
     "section": {"--plot", "--no-plot", "--out", "--force", "--json"}
-    | {"--torsion", "--speeds", "--max-speed", "--aero", "--damping-threshold"},
+    | {"--torsion", "--speeds", "--max-speed", "--aero", "--damping", "--damping-threshold"},
 }
 
 

@@ -137,7 +137,7 @@ def test_points_lie_on_the_curves():
 
 
 def test_a_threshold_moves_the_change():
-    section = read_section("airfoil-3dof").with_threshold(0.01)
+    section = read_section("airfoil-3dof").with_analysis(damping_threshold=0.01)
     study = section_sweep(section, np.arange(36, 41) / 10)
     (change,) = study.changes
     assert change.confirmed

@@ -346,6 +346,7 @@ def section(
     speeds: options.SectionSpeeds = None,
     max_speed: options.SectionMaxSpeed = None,
     aero: options.SectionAero = "strip",
+    damping: options.Damping = None,
     damping_threshold: options.Threshold = None,
     plot: options.Plot = True,
     out: options.Out = None,
@@ -362,6 +363,7 @@ def section(
         speeds,
         max_speed=options.number("--max-speed", max_speed, "30"),
         aero=aero,
+        damping=options.number("--damping", damping, "0.01"),
         damping_threshold=options.number("--damping-threshold", damping_threshold, "0.02"),
     )
     run_section(request, Output(plot, out, force, json))

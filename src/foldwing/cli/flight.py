@@ -73,7 +73,7 @@ def _flown(request: FlightRequest, text: str) -> _Flown:
             raise tables.missing("flight")
         wing = request.aircraft_wing(text)
         folds = request.one_case(wing, "flight")
-        return _Flown(airframe_of(wing, folds, request.speed), wing, folds)
+        return _Flown(airframe_of(wing, folds, _speed(request)), wing, folds)
     others = {
         "--fold": request.fold,
         "--fold-of": request.fold_of,
@@ -86,6 +86,18 @@ def _flown(request: FlightRequest, text: str) -> _Flown:
             raise InputError(option, str(value), limit, "Leave it out.")
     model = _at(parse_flight(text, request.model), request.speed)
     return _Flown(model, wing_of(model) if isinstance(model, Airframe) else None, ())
+
+
+def _speed(request: FlightRequest) -> float | None:
+    """Return the airspeed asked for; the first of a range where there is no other."""
+    if request.speed is not None or request.speeds is None:
+        return request.speed
+    wing = request.aircraft_wing(model_text(request.model))
+    if wing.aircraft is not None and wing.aircraft.cruise_speed is not None:
+        return None
+    from foldwing.studies.grid import parse_speeds
+
+    return float(parse_speeds(request.speeds)[0])
 
 
 def _at(model: "FlightModel", speed: float | None) -> "FlightModel":

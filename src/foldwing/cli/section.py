@@ -38,6 +38,7 @@ class SectionRequest:
     speeds: str | None = None
     max_speed: float | None = None
     aero: str = "strip"
+    damping: float | None = None
     damping_threshold: float | None = None
 
     @property
@@ -49,12 +50,12 @@ class SectionRequest:
     def section(self, text: str) -> TypicalSection:
         """Return the section of the model file, changed by the options."""
         section = parse_section(text, self.model)
-        if self.damping_threshold is None:
-            return section
+        changes = {"damping": self.damping, "damping_threshold": self.damping_threshold}
+        given = {key: value for key, value in changes.items() if value is not None}
         try:
-            return section.with_threshold(self.damping_threshold)
+            return section.with_analysis(**given) if given else section
         except InputError as problem:
-            option = "--damping-threshold"
+            option = f"--{problem.field.removeprefix('analysis.').replace('_', '-')}"
             raise InputError(option, problem.value, problem.limit, problem.remedy) from None
 
     def ratios(self, section: TypicalSection) -> list[float]:

@@ -99,10 +99,10 @@ class TypicalSection(Record):
         with as_input_error():
             return self.model_validate(dict(self) | {"torsion_frequency_ratio": ratio})
 
-    def with_threshold(self, damping_threshold: float) -> Self:
-        """Return this section with another damping ratio at which it counts as unstable."""
+    def with_analysis(self, **changes: float) -> Self:
+        """Return this section with some values of its analysis changed, ``damping=0.01``."""
         with as_input_error(("analysis",)):
-            changed = self.analysis.model_dump() | {"damping_threshold": damping_threshold}
+            changed = self.analysis.model_dump() | changes
             return self.model_copy(update={"analysis": Analysis.model_validate(changed)})
 
 

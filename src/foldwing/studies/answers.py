@@ -80,7 +80,9 @@ def aircraft_answer(study: AircraftStudy) -> Answer:
     angles = dataset["trim_angle"].values[0]
     answer["speeds"] = dataset["speed"].values.tolist()
     answer["angle_of_attack"] = [_number(angle) for angle in angles]
-    answer["motions"] = [_motion(dataset, name) for name in study.case.motion_names]
+    followed = dataset["branch_name"].values.tolist()
+    names = [name for name in study.case.motion_names if name in followed]
+    answer["motions"] = [_motion(dataset, name) for name in names]
     answer["clamped"] = None if study.clamped is None else flutter_answer(study.clamped)
     return answer
 
