@@ -262,3 +262,15 @@ def test_the_trim_of_a_sweep_has_a_line_for_each_case_and_surface(cli, empty_fol
     np.testing.assert_array_equal(given, dataset["lift_share"].values)
     np.testing.assert_allclose(given.sum(axis=1), 1.0)
     assert not (empty_folder / "r" / "motions.csv").exists()
+
+
+def test_an_aircraft_that_has_no_margin_gets_an_answer(cli, empty_folder):
+    """Its phugoid is born beyond the airspeeds of the curves: there is none to show."""
+    text = example_text(AIRCRAFT).replace(
+        'centre_of_gravity = "1.25 cm"', 'centre_of_gravity = "8 cm"'
+    )
+    (empty_folder / "aft.toml").write_text(text)
+    answer = cli("aircraft", "aft.toml", "--json")
+    assert answer.status == 0
+    assert answer.json["unstable_from_start"] == 2
+    assert answer.json["motions"] == []
