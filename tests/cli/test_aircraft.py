@@ -323,3 +323,15 @@ def test_body_freedom_flutter_is_critical(cli, empty_folder):
     of_whole = ("phugoid", "short period")
     bounding = [p for p in onsets if p["kind"] != "flutter" or p.get("motion") not in of_whole]
     assert capped["critical"] == min(bounding, key=lambda p: p["speed"])
+
+
+def test_an_aircraft_that_has_no_margin_gets_an_answer(cli, empty_folder):
+    """Its phugoid is born beyond the airspeeds of the curves: there is none to show."""
+    text = example_text(AIRCRAFT).replace(
+        'centre_of_gravity = "1.25 cm"', 'centre_of_gravity = "8 cm"'
+    )
+    (empty_folder / "aft.toml").write_text(text)
+    answer = cli("aircraft", "aft.toml", "--json")
+    assert answer.status == 0
+    assert answer.json["unstable_from_start"] == 2
+    assert answer.json["motions"] == []

@@ -12,6 +12,7 @@ from foldwing.model import Analysis, TypicalSection, parse_section, read_section
 from foldwing.stability.flutter import find_flutter
 from foldwing.stability.loci import root_loci
 from foldwing.stability.problem import evaluate
+from foldwing.stability.region import RIGHT_EDGE
 from foldwing.stability.still_air import still_air_roots
 from support.sections import RigidStrip
 from support.stability import of_kind, unstable_by
@@ -221,3 +222,23 @@ def test_a_hump_between_two_points_of_the_sweep_is_found(beyond):
     counted = [np.count_nonzero(strip.quasi_steady_roots(speed).real > 0.0) for speed in speeds]
     assert listed == counted
     assert counted.count(2) > 1
+
+
+def test_a_light_section_is_certified_though_a_root_grows_beyond_the_region_at_first():
+    section = TypicalSection(
+        mass_ratio=6.310449869,
+        inertia_ratio=0.075316667,
+        axis_offset=0.412105612,
+        mass_offset=-0.194933131,
+        torsion_frequency_ratio=2.203427518,
+        second_mass_ratio=0.968934204,
+        second_frequency_ratio=4.899862120,
+        analysis=Analysis(damping=0.01),
+    )
+    system = SectionSystem(section)
+    p, speed = np.array([RIGHT_EDGE, 3.0], complex), np.full(2, 20.0)
+    below, above = np.linalg.det(evaluate(system, p, speed)).real
+    assert below < 0.0 < above
+    analysis = find_flutter(system, (0.1, 30.0))
+    assert analysis.certified
+    assert analysis.certificate.counted.tolist() == [0, 0, 1, 3, 1, 1]

@@ -171,6 +171,20 @@ def test_loci_pass_the_slowest_airspeed_without_a_jump_and_are_certified(aerodyn
     np.testing.assert_allclose(elastic[2, followed], elastic[1, followed], rtol=1e-3)
 
 
+def test_a_motion_is_followed_down_from_beyond_the_airspeeds_of_the_curves():
+    system, slowest, found = solved((30, -60))
+    beginning = Beginning(system.partly_carried(slowest), slowest)
+    motions = flight_modes(system, (slowest, TOP), 9.80665)
+    speeds = np.array([14.0, 16.0, 18.0])
+    at_top = motions.eigenvalues(system, np.array([25.0]))[0] * system.half_chord / 25.0
+    high = polish_roots(system, at_top, np.full(len(at_top), 25.0))
+    for roots in (motions.roots, high):
+        loci = root_loci(system, speeds, found.sweep, Further(roots, beginning))
+        own = loci.eigenvalue[:, loci.mode < -1]
+        np.testing.assert_allclose(own, motions.eigenvalues(system, speeds), rtol=1e-9)
+        assert loci.certified.all()
+
+
 # --- mixed models ---------------------------------------------------------------------------------
 
 

@@ -217,16 +217,18 @@ def _with_branch(
     """Add the branch through one root, unless a branch passes through it already."""
     above = np.flatnonzero(loci.speed >= root.speed[0])
     below = np.flatnonzero((loci.speed < root.speed[0]) & (loci.speed >= max(lowest, TINY)))[::-1]
-    if len(above) == 0 or (len(below) == 0 and mode == BORN):
+    if mode == BORN and (len(above) == 0 or len(below) == 0):
         return loci
     upward = record(problem, root, loci.speed[above])
-    known = np.flatnonzero(np.isfinite(upward.eigenvalue[:, 0].real))
+    downward = record(problem, root, loci.speed[below])
+    rows = np.concatenate([above, below])
+    values = np.concatenate([upward.eigenvalue[:, 0], downward.eigenvalue[:, 0]])
+    known = np.flatnonzero(np.isfinite(values.real))
     if len(known) == 0:
         return loci
-    beside, value = loci.eigenvalue[above[known[0]]], upward.eigenvalue[known[0], 0]
+    beside, value = loci.eigenvalue[rows[known[0]]], values[known[0]]
     if (np.abs(beside / value - 1.0) < SAME_EIGENVALUE).any():
         return loci
-    downward = record(problem, root, loci.speed[below])
     unborn = downward.status == Status.LEFT_DOMAIN
     downward = replace(downward, status=np.where(unborn, Status.ABSENT, downward.status))
     return loci.joined(upward, above, downward, below, mode)

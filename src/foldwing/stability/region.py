@@ -12,7 +12,7 @@ import numpy as np
 from foldwing.maths.arrays import Complex, Real
 
 RIGHT_EDGE = 1.5
-"""Re p of the right edge: unstable roots of a wing with apparent mass grow by less per b/U."""
+"""Re p of the right edge at first: most unstable roots grow by less per b/U with apparent mass."""
 
 SMALLEST = 1e-10
 """Reduced frequency that stands for zero."""

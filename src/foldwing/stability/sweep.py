@@ -37,7 +37,7 @@ WIDENINGS, WIDTH_SPEEDS = 10, 12
 """Most times that a region is doubled, and airspeeds at which its roots are compared."""
 
 ATTEMPTS = 3
-"""Sweeps, each twice as dense as the one before, after which a case is left uncertified."""
+"""Sweeps after which a case is left uncertified, each twice as dense and wide as the one before."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,12 @@ def sweep(
         result = _sweep_once(problem, speed_range, region)
         if result.certificate.certified:
             break
-        region = replace(region, lowest=region.lowest / 4.0, density=region.density * 2.0)
+        region = replace(
+            region,
+            lowest=region.lowest / 4.0,
+            density=region.density * 2.0,
+            edge=region.edge * 2.0,
+        )
     return result
 
 

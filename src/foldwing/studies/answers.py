@@ -8,6 +8,7 @@ import numpy as np
 
 from foldwing.aerodynamics.steady_loads import WingLoads
 from foldwing.maths.arrays import Complex, Real
+from foldwing.results.aircraft_table import motions_found
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.schema import fold_angle_names
 from foldwing.results.steady_table import PER_SEGMENT, WHOLE
@@ -80,15 +81,14 @@ def aircraft_answer(study: AircraftStudy) -> Answer:
     angles = dataset["trim_angle"].values[0]
     answer["speeds"] = dataset["speed"].values.tolist()
     answer["angle_of_attack"] = [_number(angle) for angle in angles]
-    followed = dataset["branch_name"].values.tolist()
-    names = [name for name in study.case.motion_names if name in followed]
-    answer["motions"] = [_motion(dataset, name) for name in names]
+    answer["motions"] = [
+        _motion(dataset, name, column) for name, column in motions_found(dataset).items()
+    ]
     answer["clamped"] = None if study.clamped is None else flutter_answer(study.clamped)
     return answer
 
 
-def _motion(dataset: "xarray.Dataset", name: str) -> Answer:
-    column = dataset["branch_name"].values.tolist().index(name)
+def _motion(dataset: "xarray.Dataset", name: str, column: int) -> Answer:
     values = dataset["eigenvalue"].values[0, :, column]
     return {
         "name": name,
