@@ -63,7 +63,7 @@ class FlutterRow:
     residual : float
         Residual of the flutter equation.
     motion : str
-        ``elastic``, ``phugoid`` or ``short period``.
+        ``elastic``, ``phugoid``, ``short period`` or ``body freedom``.
     """
 
     case: int

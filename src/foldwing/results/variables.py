@@ -168,7 +168,7 @@ _POINTS = (
     variable("flutter_mode_confidence", _TABLE, "1", "confidence in the name of the mode"),
     variable("threshold", _TABLE, "1", "damping ratio at which the point is reported"),
     variable("point_residual", _TABLE, "1", "residual of the flutter point"),
-    variable("motion", _TABLE, "", "elastic, phugoid or short period", "text"),
+    variable("motion", _TABLE, "", "elastic, phugoid, short period, body freedom", "text"),
     variable("flutter_shape", (*_TABLE, "point", "axis"), "m", "motion at the point", "complex"),
 )
 
