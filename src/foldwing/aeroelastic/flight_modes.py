@@ -20,8 +20,15 @@ from foldwing.stability.flutter import FlutterAnalysis
 from foldwing.stability.newton import Roots, polish_roots
 from foldwing.stability.status import ELASTIC, FlutterPoint
 from foldwing.stability.tracking import branches_at, record
+from foldwing.structure.modes import AIRCRAFT_MOTIONS
 
 PHUGOID, SHORT_PERIOD = "phugoid", "short period"
+
+_Guess = tuple[float, complex]
+"""Airspeed in m/s and where a root may be there, in rad/s."""
+
+WHOLE = slice(0, len(AIRCRAFT_MOTIONS))
+"""Modes x, z and pitch, which come first; the flapping of a free hinge is rigid too."""
 
 LOW = 0.02
 """Reduced frequency at which the forces in phase with the rate are taken."""
@@ -30,7 +37,7 @@ TRIALS = 16
 """Airspeeds at which the two are looked for."""
 
 AS_A_WHOLE = 0.3
-"""Share of the kinetic energy in rigid motions from which on a root may be one of the two."""
+"""Share of the kinetic energy in x, z and pitch from which on a root may be one of the two."""
 
 FASTEST_PHUGOID = 3.0
 """Multiple of sqrt(2) g / U beyond which an oscillation is no phugoid."""
@@ -95,10 +102,12 @@ def flight_modes(
         m/s^2; with the airspeed it tells how fast a phugoid can be.
     """
     trials = [_trial(system, float(U), gravity) for U in np.geomspace(*speed_range, TRIALS)]
-    apart = sorted(trials, key=lambda trial: -trial.separation)
+    apart = np.array([trial.separation for trial in trials])
     found = {
-        PHUGOID: _converged(system, [(t.speed, t.phugoid) for t in apart]),
-        SHORT_PERIOD: _converged(system, [(t.speed, t.short_period) for t in apart]),
+        PHUGOID: _converged(system, _in_turn([(t.speed, t.phugoid) for t in trials], apart)),
+        SHORT_PERIOD: _converged(
+            system, _in_turn([(t.speed, t.short_period) for t in trials], apart)
+        ),
     }
     roots = [root for root in found.values() if root is not None]
     names = tuple(name for name, root in found.items() if root is not None)
@@ -114,11 +123,21 @@ def _fastest_phugoid(speed: float, gravity: float) -> float:
     return FASTEST_PHUGOID * float(np.sqrt(2.0)) * gravity / speed
 
 
-def _converged(system: AeroelasticSystem, guesses: Sequence[tuple[float, complex]]) -> Roots | None:
-    """Return the root of the first guess (airspeed, rad/s) that leads to one near it."""
+def _in_turn(guesses: Sequence[_Guess], apart: Real) -> list[_Guess]:
+    """Return guesses at ascending airspeeds in the order in which they are tried; none are 0.
+
+    Those below the airspeed at which the motion is lost come first: one that is born again beyond
+    does not lead back to it. Among them the one that stands best apart.
+    """
+    there = np.array([guess != 0.0 for _, guess in guesses])
+    lost = np.cumsum(~there & (np.cumsum(there) > 0)) > 0
+    order = np.lexsort((-apart, lost))
+    return [guesses[index] for index in order if there[index]]
+
+
+def _converged(system: AeroelasticSystem, guesses: Sequence[_Guess]) -> Roots | None:
+    """Return the root of the first guess that leads to one near it."""
     for speed, guess in guesses:
-        if not guess:
-            continue
         p = np.array([guess * (system.half_chord / speed)])
         root = polish_roots(system, p, np.array([speed]))
         near = abs(root.p[0] / p[0] - 1.0) < NEAR and root.p[0].imag > 0.0
@@ -166,13 +185,13 @@ def _trial(system: AeroelasticSystem, speed: float, gravity: float) -> _Trial:
 
 
 def _oscillations(system: AeroelasticSystem, speed: float) -> tuple[Complex, Real]:
-    """Return oscillating roots in rad/s, the slowest first, and the share of rigid motion."""
+    """Return oscillating roots in rad/s, the slowest first, and the share of x, z and pitch."""
     values, vectors = _quasi_steady(system, speed)
     size = np.abs(values).max()
     kept = np.flatnonzero(values.imag > 1e-9 * size)
     kept = kept[np.argsort(np.abs(values[kept]))]
     energy = np.abs(vectors[: system.size, kept]) ** 2
-    return values[kept], energy[system.rigid].sum(axis=0) / energy.sum(axis=0)
+    return values[kept], energy[WHOLE].sum(axis=0) / energy.sum(axis=0)
 
 
 def quasi_steady_roots(system: AeroelasticSystem, speed: float) -> Complex:
@@ -233,7 +252,7 @@ def _is_reborn(point: FlutterPoint, system: AeroelasticSystem, modes: FlightMode
     omega = abs(point.p) * point.speed / system.half_chord
     at = np.array([point.p]), np.array([point.speed]), point.vector[None]
     energy = np.abs(system.modal_vectors(*at)[0]) ** 2
-    whole = float(energy[system.rigid].sum() / energy.sum())
+    whole = float(energy[WHOLE].sum() / energy.sum())
     return omega <= modes.fastest_phugoid(point.speed) and whole > 0.5
 
 
