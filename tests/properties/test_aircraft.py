@@ -10,6 +10,7 @@ import pytest
 
 from foldwing.aeroelastic.flight_modes import flight_modes
 from foldwing.aeroelastic.wing import AeroelasticWing
+from foldwing.model import example_text, parse_model
 from foldwing.stability.flutter import find_flutter
 from foldwing.stability.loci import Further, root_loci
 from foldwing.stability.newton import polish_roots
@@ -183,6 +184,21 @@ def test_a_motion_is_followed_down_from_beyond_the_airspeeds_of_the_curves():
         own = loci.eigenvalue[:, loci.mode < -1]
         np.testing.assert_allclose(own, motions.eigenvalues(system, speeds), rtol=1e-9)
         assert loci.certified.all()
+
+
+def test_a_phugoid_that_merges_and_is_born_again_is_followed_where_it_is_first():
+    """With a heavy tip it is real from about 30 to 70 m/s; beyond, it stands apart best."""
+    tip = '\n[[point_mass]]\nsegment = 3\nmass = "20 g"\nx = "1 cm"\ny = "6 cm"\n'
+    model = AeroelasticWing(parse_model(example_text(NAME) + tip))
+    modes = model.modes()
+    system, slowest = model.system(modes), model.trim(modes).slowest
+    motions = flight_modes(system, (slowest, 93.0), 9.80665)
+    speeds = np.linspace(slowest, 25.0, 6)
+    phugoid = motions.eigenvalues(system, speeds)[:, motions.names.index("phugoid")]
+    assert (np.abs(phugoid) * speeds < 3 * np.sqrt(2) * 9.80665).all()  # nan where it is lost
+    further = Further(motions.roots, Beginning(system.partly_carried(slowest), slowest))
+    found = find_flutter(system, (slowest, 93.0))
+    assert root_loci(system, speeds, found.sweep, further).certified.all()
 
 
 # --- mixed models ---------------------------------------------------------------------------------

@@ -24,7 +24,7 @@ from foldwing.aerodynamics.unsteady import LatticeModel
 from foldwing.aeroelastic.trim import LiftingSurfaces, Trim, trim
 from foldwing.maths.arrays import Complex, Real
 from foldwing.maths.quadrature import gauss_rule
-from foldwing.model import Aircraft, Tail, Wing
+from foldwing.model import Aircraft, HingeKind, Tail, Wing
 from foldwing.model.aircraft import QUARTER, quarter_chord
 from foldwing.structure.component import ComponentModes
 from foldwing.structure.mass_centres import mass_centres
@@ -39,6 +39,18 @@ def aircraft_of(wing: Wing) -> Aircraft:
     if wing.aircraft is None:
         raise ValueError("wing.aircraft: got None; a clamped wing has no trim")
     return wing.aircraft
+
+
+def free_hinge_warning(wing: Wing) -> str:
+    """Return that a free hinge of an aircraft is out of balance in words, empty otherwise."""
+    free = [i for i, hinge in enumerate(wing.hinges, start=2) if hinge.kind is HingeKind.FREE]
+    if wing.aircraft is None or not free:
+        return ""
+    which = ", ".join(str(number) for number in free)
+    return (
+        f"Hinge {which} is free: nothing balances the moment of the steady lift about it, so that "
+        "level flight at this fold angle is no equilibrium."
+    )
 
 
 def tail_lags(aircraft: Aircraft) -> bool:

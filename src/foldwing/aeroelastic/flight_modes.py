@@ -1,11 +1,12 @@
 """Phugoid and short period of a flexible aircraft: found, followed, and told from other roots.
 
-Neither leads to a natural mode at rest. They are sought where they stand well apart, the phugoid
-far below the short period and that far below the elastic modes, from a quasi-steady approximation
+Neither leads to a natural mode at rest. They are sought with a quasi-steady approximation
 
     Qhat(p) = Q0 + p Q1 + p^2 Q2,    Q1 = Im Qhat(i k)/k at a low k,
 
-whose roots all come from one matrix, and then converged on the full problem and followed.
+whose roots all come from one matrix: the phugoid where it stands furthest apart, the short period
+at the slowest level flight, where it is furthest below the elastic modes. Then they are converged
+on the full problem and followed.
 """
 
 from collections.abc import Sequence
@@ -20,8 +21,15 @@ from foldwing.stability.flutter import FlutterAnalysis
 from foldwing.stability.newton import Roots, polish_roots
 from foldwing.stability.status import BODY_FREEDOM, FlutterPoint
 from foldwing.stability.tracking import branches_at, record
+from foldwing.structure.modes import AIRCRAFT_MOTIONS
 
 PHUGOID, SHORT_PERIOD = "phugoid", "short period"
+
+_Guess = tuple[float, complex]
+"""Airspeed in m/s and where a root may be there, in rad/s."""
+
+WHOLE = slice(0, len(AIRCRAFT_MOTIONS))
+"""Modes x, z and pitch, which come first; the flapping of a free hinge is rigid too."""
 
 LOW = 0.02
 """Reduced frequency at which the forces in phase with the rate are taken."""
@@ -30,7 +38,7 @@ TRIALS = 16
 """Airspeeds at which the two are looked for."""
 
 AS_A_WHOLE = 0.3
-"""Share of the kinetic energy in rigid motions from which on a root may be one of the two."""
+"""Share of the kinetic energy in x, z and pitch from which on a root may be one of the two."""
 
 FASTEST_PHUGOID = 3.0
 """Multiple of sqrt(2) g / U beyond which an oscillation is no phugoid."""
@@ -98,10 +106,12 @@ def flight_modes(
         m/s^2; with the airspeed it tells how fast a phugoid can be.
     """
     trials = [_trial(system, float(U), gravity) for U in np.geomspace(*speed_range, TRIALS)]
-    apart = sorted(trials, key=lambda trial: -trial.separation)
+    apart = np.array([trial.separation for trial in trials])
     found = {
-        PHUGOID: _converged(system, [(t.speed, t.phugoid) for t in apart]),
-        SHORT_PERIOD: _converged(system, [(t.speed, t.short_period) for t in apart]),
+        PHUGOID: _converged(system, _in_turn([(t.speed, t.phugoid) for t in trials], apart)),
+        SHORT_PERIOD: _converged(
+            system, [(t.speed, t.short_period) for t in trials if t.short_period]
+        ),
     }
     roots = [root for root in found.values() if root is not None]
     names = tuple(name for name, root in found.items() if root is not None)
@@ -117,11 +127,21 @@ def _fastest_phugoid(speed: float, gravity: float) -> float:
     return FASTEST_PHUGOID * float(np.sqrt(2.0)) * gravity / speed
 
 
-def _converged(system: AeroelasticSystem, guesses: Sequence[tuple[float, complex]]) -> Roots | None:
-    """Return the root of the first guess (airspeed, rad/s) that leads to one near it."""
+def _in_turn(guesses: Sequence[_Guess], apart: Real) -> list[_Guess]:
+    """Return guesses at ascending airspeeds in the order in which they are tried; none are 0.
+
+    Those below the airspeed at which the motion is lost come first: one that is born again beyond
+    does not lead back to it. Among them the one with the largest ``apart``.
+    """
+    there = np.array([guess != 0.0 for _, guess in guesses])
+    lost = np.cumsum(~there & (np.cumsum(there) > 0)) > 0
+    order = np.lexsort((-apart, lost))
+    return [guesses[index] for index in order if there[index]]
+
+
+def _converged(system: AeroelasticSystem, guesses: Sequence[_Guess]) -> Roots | None:
+    """Return the root of the first guess that leads to one near it."""
     for speed, guess in guesses:
-        if not guess:
-            continue
         p = np.array([guess * (system.half_chord / speed)])
         root = polish_roots(system, p, np.array([speed]))
         near = abs(root.p[0] / p[0] - 1.0) < NEAR and root.p[0].imag > 0.0
@@ -153,29 +173,27 @@ def _trial(system: AeroelasticSystem, speed: float, gravity: float) -> _Trial:
     values, share = _oscillations(system, speed)
     elastic = system.omega[~system.rigid]
     lowest = float(elastic[0]) if len(elastic) else np.inf
-    whole = values[share > AS_A_WHOLE]
+    values = values[share > AS_A_WHOLE]
     highest = _fastest_phugoid(speed, gravity)
-    size = np.abs(whole)
-    slow, fast = (
-        whole[size <= highest],
-        whole[(size > highest) & (size < FASTEST_SHORT_PERIOD * lowest)],
-    )
+    size = np.abs(values)
+    slow = np.flatnonzero(size <= highest)
+    fast = np.flatnonzero((size > highest) & (size < FASTEST_SHORT_PERIOD * lowest))
     return _Trial(
         speed,
-        complex(slow[0]) if len(slow) else 0j,
-        complex(fast[0]) if len(fast) else 0j,
+        complex(values[slow[0]]) if len(slow) else 0j,
+        complex(values[fast[0]]) if len(fast) else 0j,
         lowest,
     )
 
 
 def _oscillations(system: AeroelasticSystem, speed: float) -> tuple[Complex, Real]:
-    """Return oscillating roots in rad/s, the slowest first, and the share of rigid motion."""
+    """Return oscillating roots in rad/s, the slowest first, and the share of x, z and pitch."""
     values, vectors = _quasi_steady(system, speed)
     size = np.abs(values).max()
     kept = np.flatnonzero(values.imag > 1e-9 * size)
     kept = kept[np.argsort(np.abs(values[kept]))]
     energy = np.abs(vectors[: system.size, kept]) ** 2
-    return values[kept], energy[system.rigid].sum(axis=0) / energy.sum(axis=0)
+    return values[kept], energy[WHOLE].sum(axis=0) / energy.sum(axis=0)
 
 
 def quasi_steady_roots(system: AeroelasticSystem, speed: float) -> Complex:
@@ -237,7 +255,7 @@ def _motion(point: FlutterPoint, origin: str, system: AeroelasticSystem, modes: 
         return origin or point.motion
     at = np.array([point.p]), np.array([point.speed]), point.vector[None]
     energy = np.abs(system.modal_vectors(*at)[0]) ** 2
-    if float(energy[system.rigid].sum() / energy.sum()) < RIGID:
+    if float(energy[WHOLE].sum() / energy.sum()) < RIGID:
         return BODY_FREEDOM if origin else point.motion
     omega = abs(point.p) * point.speed / system.half_chord
     slow = omega <= modes.fastest_phugoid(point.speed)

@@ -25,7 +25,12 @@ from foldwing.aerodynamics.lattice import (
 from foldwing.aerodynamics.port import AerodynamicModel
 from foldwing.aerodynamics.strip import StripForces, StripModel, strip_forces, strip_model
 from foldwing.aerodynamics.unsteady import LatticeModel, PanelMotion, lattice_model, load_length
-from foldwing.aeroelastic.aircraft import aircraft_trim, tail_forces, trim_forces
+from foldwing.aeroelastic.aircraft import (
+    aircraft_trim,
+    free_hinge_warning,
+    tail_forces,
+    trim_forces,
+)
 from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.aeroelastic.trim import Trim
 from foldwing.errors import InputError
@@ -151,10 +156,10 @@ class AeroelasticWing:
             When segments of a vortex lattice lie on each other, or reach through the wall.
         """
         if self.aerodynamics != "lattice":
-            return ""
+            return free_hinge_warning(self.wing)
         image = self.wing.lattice.image
         doubts = strips_warning(self.strips(modes), modes.fold_angles, image)
-        others = gap_warning(self.wing), unused_warning(self.wing)
+        others = gap_warning(self.wing), unused_warning(self.wing), free_hinge_warning(self.wing)
         return " ".join(filter(None, (doubts, *others)))
 
     def influence(self, modes: StructuralModes) -> Influence:

@@ -2,10 +2,11 @@
 
 from typing import TYPE_CHECKING
 
+import typer
 from rich.console import Console
 
 from foldwing.cli import tables
-from foldwing.cli.commands import Output, computing, print_json, shown, write_result
+from foldwing.cli.commands import FAILED, Output, computing, print_json, shown, write_result
 from foldwing.cli.request import Request
 from foldwing.model import model_text
 
@@ -45,6 +46,9 @@ def run_aircraft(request: Request, output: Output) -> None:
         with shown():
             show_aircraft(study.dataset)
     write_result(study.dataset, folder, output)
+    if study.clamped is None:
+        tables.name_problems([f"with its root clamped: {study.failure}"])
+        raise typer.Exit(FAILED)
 
 
 def show_aircraft(dataset: "xarray.Dataset") -> None:

@@ -33,11 +33,14 @@ class AircraftStudy:
         The aircraft.
     clamped : Case or None
         Its wing with the root clamped, in the same range of airspeeds; None when that failed.
+    failure : str
+        Why it failed, empty when it did not.
     """
 
     dataset: "xarray.Dataset"
     case: Case
     clamped: Case | None
+    failure: str = ""
 
 
 def aircraft_study(
@@ -69,7 +72,7 @@ def aircraft_study(
         highest = float(speeds[-1])
     searched = speed_range(model, highest)
     case = solve_case(model, folds, searched)
-    clamped = _clamped(model, folds, searched)
+    clamped, failure = _clamped(model, folds, searched)
     chosen = _speeds(case, clamped) if speeds is None else speeds
     variables, coords = case_parts(model, case, chosen)
     for more, numbers in (trim_parts([case], chosen), _clamped_parts(clamped, chosen)):
@@ -82,16 +85,17 @@ def aircraft_study(
         source.options,
     )
     attrs |= search_attributes(model, case.analysis.speed_range)
-    return AircraftStudy(build_dataset(variables, coords, attrs), case, clamped)
+    return AircraftStudy(build_dataset(variables, coords, attrs), case, clamped, failure)
 
 
 def _clamped(
     model: AeroelasticWing, folds: tuple[float, ...], searched: tuple[float, float]
-) -> Case | None:
+) -> tuple[Case | None, str]:
+    """Return the clamped wing, or why it failed."""
     try:
-        return solve_case(replace(model, wing=model.wing.clamped), folds, searched)
-    except NUMERICAL_FAILURES:
-        return None
+        return solve_case(replace(model, wing=model.wing.clamped), folds, searched), ""
+    except NUMERICAL_FAILURES as problem:
+        return None, f"{type(problem).__name__}: {problem}"
 
 
 def _speeds(case: Case, clamped: Case | None) -> Real:

@@ -60,7 +60,7 @@ class Flight:
 
     def further(self, system: AeroelasticSystem) -> Further:
         """Return what the loci of an aircraft have besides those of a clamped wing."""
-        until = self.speed_range[0]
+        until = self.level.slowest
         return Further(self.modes.roots, Beginning(system.partly_carried(until), until))
 
 

@@ -1,15 +1,17 @@
 """One aircraft in two descriptions: bodies joined to a wing, and a rigid wing with a tail."""
 
-import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
+import scipy.linalg
 from pydantic import ValidationError
 
 from foldwing.aeroelastic.rigid import rigid_modes, rigid_roots
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
-from foldwing.flight import ModeRow, mode_row
+from foldwing.flight import ModeRow, flight_modes, mode_row
+from foldwing.maths.arrays import Real
 from foldwing.model import Air, Aircraft, Airframe, Fuselage, Segment, Surface, Tail, Wing
 from foldwing.model.aircraft import QUARTER
 from foldwing.structure.mass_centres import mass_centres
@@ -18,6 +20,9 @@ from foldwing.studies.grid import radians
 
 MULTI_BODY = "multi-body"
 """Name of the rigid aircraft of joined bodies, before that of its aerodynamics."""
+
+STATES = 4
+"""Roots of a rigid aircraft that are not neutral."""
 
 WING_SHARE = 0.01
 """Share of the mass that a rigid wing is given; where it lies does not matter."""
@@ -154,8 +159,21 @@ def _rows(
     rows = []
     for speed in dict.fromkeys(speeds):
         roots = [complex(root) for root in rigid_roots(system, float(speed))]
-        if len(roots) >= 2 and math.isclose(abs(roots[0]), abs(roots[1]), rel_tol=1e-6):
-            slow, fast = (roots[0], roots[1]), roots[2:4]
-            rest = (fast[0], fast[1]) if len(fast) == 2 else None
-            rows.append(mode_row(name, float(speed), slow, rest))
+        if len(roots) == STATES:
+            motions = tuple(replace(m, shape=()) for m in flight_modes(_with_roots(roots)))
+            rows.append(ModeRow(name, float(speed), motions))
+        elif len(roots) == 2 and roots[0].imag != 0.0:  # a decaying real motion lags: it is unknown
+            rows.append(mode_row(name, float(speed), (roots[0], roots[1])))
     return rows
+
+
+def _with_roots(roots: Sequence[complex]) -> Real:
+    """Return a real matrix that has these roots, both of a pair among them."""
+    blocks = [
+        np.array([[root.real, root.imag], [-root.imag, root.real]])
+        if root.imag > 0.0
+        else np.array([[root.real]])
+        for root in roots
+        if root.imag >= 0.0
+    ]
+    return np.asarray(scipy.linalg.block_diag(*blocks))
