@@ -144,11 +144,26 @@ def upright_labels(
         return []
     gap = _TEXT_INCHES * 1.15 / inches * (x_range[1] - x_range[0])
     offset = 0.55 * gap
-    placed = spread(np.array([event[0] for event in events]) - offset, gap)
+    rules = np.array([event[0] for event in events])
+    placed = _left_of_rules(rules, offset, gap)
+    if placed.min() < x_range[0] + offset:
+        placed = _within(spread(rules - offset, gap), (x_range[0], x_range[1] - offset), gap)
     return [
         Note(float(x), y, text, color, "center", "bottom", dy=4, upright=True)
         for x, (_, text, color) in zip(placed, events, strict=True)
     ]
+
+
+def _left_of_rules(rules: Array, offset: float, gap: float) -> Array:
+    """Return places left of each rule, a gap apart, that no rule runs through."""
+    placed, limit = np.empty(len(rules)), np.inf
+    for index in np.argsort(rules, kind="stable")[::-1]:
+        place = min(rules[index] - offset, limit)
+        for rule in np.sort(rules)[::-1]:
+            if abs(place - rule) < 0.99 * offset:
+                place = rule - offset
+        placed[index], limit = place, place - gap
+    return placed
 
 
 def focused(growth: Array, depth: float) -> Range:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldwing.plots.branches import Branches, branches_of, lines, rule_labels, rules
+from foldwing.plots.branches import Branches, branches_of, leaving, lines, rule_labels, rules
 from foldwing.plots.events import event_marks
 from foldwing.plots.layout import subtitle
 from foldwing.plots.level_flight import slowest
@@ -82,6 +82,7 @@ def _phugoid(every: Branches, found: dict[str, int]) -> list[Panel]:
         items: list[Item] = [Rule(0.0, "y", "ink", width=1.2)]
         named = lines(side, values, y_range, quantity)
         items += [i for i in named if not isinstance(i, Note) or i.text != "phugoid"]
+        items += leaving(side, values, y_range)
         items += rules(side)
         items += _marks(side) if quantity == "frequency" else []
         items += rule_labels(side, y_range[0], _INCHES) if quantity == "growth" else []

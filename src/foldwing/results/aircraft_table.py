@@ -96,7 +96,9 @@ def trim_table(dataset: "xarray.Dataset") -> Table:
     rows = []
     for index, name in enumerate(dataset["surface"].values.tolist()):
         values = (_three_decimals(float(coefficient[i, index])) for i in at)
-        rows.append((name, _percent(float(share[index])), _three_decimals(float(lift[index])), *values))
+        rows.append(
+            (name, _percent(float(share[index])), _three_decimals(float(lift[index])), *values)
+        )
     return Table(("surface", "Share", "Lift N", *(f"CL {_speed(dataset, i)}" for i in at)), rows)
 
 
