@@ -1,5 +1,8 @@
 """Pictures of aircraft: what is drawn is what the dataset holds, and what is left out is named."""
 
+from dataclasses import replace
+from itertools import combinations
+
 import numpy as np
 import pytest
 
@@ -10,11 +13,14 @@ from foldwing.plots.boundary import boundary, boundary_map
 from foldwing.plots.catalogue import pictures
 from foldwing.plots.clamped import beside_clamped
 from foldwing.plots.energy import work_of_segments
+from foldwing.plots.events import event_marks
 from foldwing.plots.frequencies import natural_frequencies
+from foldwing.plots.layout import end_labels, upright_labels
 from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.motions import motions
 from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import Area, Bars, Dot, Graded, Line, Marks, Note, Panel, Rule, Thread
+from foldwing.plots.placing import Paper, clearest
 from foldwing.plots.report import report_html
 from foldwing.plots.shapes import mode_shapes
 from foldwing.plots.trim import trim, trim_against_speed
@@ -53,6 +59,80 @@ def column(dataset, name):
 
 def notes(panel):
     return [note.text for note in of(panel, Note)]
+
+
+# -------------------------------------------------------------------------------- labels and marks
+
+
+def test_names_in_the_root_locus_stand_beside_each_other(dataset):
+    (panel,) = root_locus(dataset).panels
+    paper = Paper(panel.x_range, panel.y_range, 6.02, panel.height * 2.6)
+    names = [note for note in of(panel, Note) if note.text in dataset["branch_name"].values]
+    assert {"phugoid", "short period", "B1", "D1"} <= {note.text for note in names}
+    corners = [paper.inches(note.x, note.y) for note in names]
+    for i, j in combinations(range(len(names)), 2):
+        across, up = np.abs(corners[i] - corners[j])
+        first = min((corners[i][0], names[i].text), (corners[j][0], names[j].text))[1]
+        assert up >= 0.12 or across >= 0.06 * len(first), (names[i].text, names[j].text)
+    for corner in corners:
+        assert 0.0 <= corner[0] <= paper.width and 0.0 <= corner[1] <= paper.height
+
+
+def test_the_root_locus_marks_where_the_phugoid_turns_real(dataset):
+    (panel,) = root_locus(dataset).panels
+    (mark,) = [m for m in of(panel, Marks) if "merger" in m.label]
+    (row,) = [row for row in flutter_rows(dataset) if row.event == "merger"]
+    after = int(np.searchsorted(dataset["speed"].values, row.speed))
+    growth = dataset["growth"].values[0]
+    phugoid = growth[after - 1, column(dataset, "phugoid")]
+    assert mark.y[0] == 0.0 and mark.x[0] == phugoid
+    low, high = sorted(growth[after, column(dataset, name)] for name in ("D1", "D2"))
+    assert low < mark.x[0] < high
+
+
+def test_a_real_root_that_leaves_the_magnified_panel_is_named(dataset):
+    panels = motions(dataset).panels
+    growth = next(p for p in panels if p.y_label.startswith("growth"))
+    assert {"D1", "D2"} <= set(notes(growth))
+    assert all(growth.y_range[0] <= note.y <= growth.y_range[1] for note in of(growth, Note))
+
+
+def test_mergers_of_a_motion_and_of_flutter_differ(dataset):
+    (row,) = [row for row in flutter_rows(dataset) if row.event == "merger"]
+    other = replace(row, motion="elastic", mode_name="B1")
+    first, second = event_marks([row, other], [1.0, 2.0], [0.0, 0.0], {})
+    assert first.symbol != second.symbol
+    assert {first.label, second.label} == {
+        "phugoid turns into divergence (merger)", "flutter turns into divergence (merger)",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("count", [3, 13, 40])
+def test_labels_at_line_ends_stay_in_their_panel(count):
+    ends = [(-40.0 + 0.1 * i, f"B{i}", "ink") for i in range(count)]
+    heights = [note.y for note in end_labels(ends, 1.0, (-40.0, 20.0), height=1.1)]
+    assert len(heights) == count and min(heights) >= -40.0 and max(heights) <= 20.0
+    gap = min(0.15, 2.8 / count) / (1.1 * 2.6) * 60.0
+    assert np.diff(sorted(heights)).min() >= gap
+
+
+def test_upright_labels_keep_off_every_rule_and_in_the_panel():
+    rules = [(39.2, "a", "ink"), (40.4, "b", "ink"), (41.1, "c", "ink"), (41.2, "d", "ink")]
+    labels = upright_labels(rules, 0.0, (0.0, 41.5), 2.7)
+    inch = 41.5 / 2.7
+    places = {note.text: note.x for note in labels}
+    assert sorted(places, key=places.get) == ["a", "b", "c", "d"]
+    assert np.diff(sorted(places.values())).min() >= 0.15 * inch
+    for x in places.values():
+        assert 0.0 < x < 41.5 and min(abs(x - at) for at, *_ in rules) > 0.07 * inch
+
+
+def test_a_text_covers_no_line_when_there_is_room_beside_it():
+    paper = Paper((0.0, 10.0), (0.0, 1.0), 5.0, 2.0)
+    line = paper.along(np.array([0.0, 10.0]), np.array([0.5, 0.5]))
+    boxes = [(1.0, 0.95, 2.0, 1.1), (4.8, 1.2, 5.8, 1.35), (1.0, 1.1, 2.0, 1.25)]
+    assert clearest(boxes, line, [], paper) == 2
+    assert clearest(boxes, line, [boxes[2]], paper) == 0
 
 
 # ------------------------------------------------------------------------ beside the clamped wing
@@ -174,7 +254,7 @@ def test_the_phugoid_is_magnified_until_it_turns_real(dataset):
     for panel in (left, below):
         assert merger.speed in [rule.at for rule in of(panel, Rule)]
     (mark,) = of(left, Marks)
-    assert (mark.x[0], mark.y[0], mark.symbol) == (merger.speed, 0.0, "diamond")
+    assert (mark.x[0], mark.y[0], mark.symbol) == (merger.speed, 0.0, "triangle-down")
     assert mark.label == "phugoid turns into divergence (merger)"
     assert {"D1", "D2"} <= set(curves(below, "growth"))
 
@@ -320,7 +400,7 @@ def test_a_phugoid_that_begins_to_grow_is_no_boundary(sweep):
 def test_a_merger_of_the_phugoid_is_divergence(sweep):
     speed = boundary(sweep).panels[0]
     mergers = [row for row in flutter_rows(sweep) if row.event == "merger"]
-    (marks,) = [m for m in of(speed, Marks) if m.symbol == "diamond"]
+    (marks,) = [m for m in of(speed, Marks) if m.symbol == "triangle-down"]
     assert marks.label == "phugoid turns into divergence (merger)"
     assert sorted(marks.y) == sorted(row.speed for row in mergers)
     shaded = [area for area in of(speed, Area) if area.color == "divergence"]

@@ -10,6 +10,7 @@ from foldwing.plots.catalogue import pictures
 from foldwing.plots.flight import _ARROW, _SIZE, flight_paths, flight_paths_relative
 from foldwing.plots.flight_modes import flight_against_speed, flight_eigenvalues
 from foldwing.plots.picture import Line, Marks
+from foldwing.results.flight_summary import flight_answer
 from foldwing.studies.flight import flight_study
 from support.aircraft import airframe
 from support.datasets import modes_dataset
@@ -82,6 +83,58 @@ def test_a_panel_for_each_mode(dataset):
     modes = len(set(dataset["swept_mode"].values.ravel()) - {""})
     assert len(flight_eigenvalues(dataset).panels) == modes
     assert len(flight_against_speed(dataset).panels) == 2 * modes + 2
+
+
+def test_every_panel_shows_something(dataset):
+    for picture in (flight_eigenvalues(dataset), flight_against_speed(dataset)):
+        for panel in picture.panels[:-1]:
+            marks = [item for item in panel.items if isinstance(item, Marks)]
+            assert sum(np.isfinite(mark.x).sum() for mark in marks) > 0
+
+
+def test_no_line_joins_a_real_root_to_an_oscillation(dataset):
+    panels = flight_eigenvalues(dataset).panels
+    panels += [p for p in flight_against_speed(dataset).panels if p.y_label.startswith("freq")]
+    lines = [item for panel in panels for item in panel.items if isinstance(item, Line)]
+    for line in lines:
+        pairs = np.stack([line.y[:-1], line.y[1:]])
+        oscillates = pairs[:, np.isfinite(pairs).all(axis=0)] > 0.0
+        np.testing.assert_array_equal(oscillates[0], oscillates[1])
+
+
+def test_an_oscillation_has_one_line_for_each_model(dataset):
+    for panel in flight_against_speed(dataset).panels[:-2]:
+        drawn = [
+            (item.name, tuple(item.y)) for item in panel.items
+            if isinstance(item, Line) and np.isfinite(item.y).sum() > 1
+        ]  # fmt: skip
+        assert len(set(drawn)) == len(drawn)
+
+
+def test_the_caption_says_that_the_product_hardly_changes_only_when_it_does(dataset):
+    assert "hardly changes" in flight_against_speed(still(dataset, 1.02)).caption
+    assert "hardly changes" not in flight_against_speed(still(dataset, 1.15)).caption
+
+
+def still(dataset, end):
+    """The dataset with products that rise from 13 to so many times that."""
+    shape = dataset["phugoid_product"].shape
+    product = 13.0 * np.linspace(1.0, end, shape[1]) * np.ones(shape)
+    return dataset.assign(phugoid_product=(dataset["phugoid_product"].dims, product))
+
+
+def test_the_answer_names_each_mode_once(dataset):
+    answer = flight_answer(dataset)
+    for mode in set(dataset["flight_mode"].values[0]) - {""}:
+        assert answer.lower().count(f"the {mode}") == 1
+
+
+def test_two_real_roots_are_told_together(dataset):
+    first = dataset["flight_model"].values[0]
+    modes = dataset["flight_mode"].sel(flight_model=first).values
+    values = dataset["flight_eigenvalue"].sel(flight_model=first).values
+    pairs = [m for m in set(modes) if (values[modes == m].imag == 0.0).sum() == 2]
+    assert flight_answer(dataset).count("two aperiodic motions: one ") == len(pairs)
 
 
 def test_both_renderers_draw(dataset):

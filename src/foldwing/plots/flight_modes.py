@@ -135,8 +135,9 @@ def _paths(dataset: "xarray.Dataset", mode: str) -> list[tuple[Array, Array]]:
 def _of_mode(values: Array, modes: Array, mode: str) -> tuple[Array, Array]:
     """Return growth and frequency of the roots of a mode, two columns, nan where there are none.
 
-    An oscillation is one root, without its conjugate. The first column is the root that stays when the mode has lost one: of the phugoid the one that
-    grows most, of the short period the one that decays most.
+    An oscillation is one root, without its conjugate. The first column is the root that stays when
+    the mode has lost one: of the phugoid the one that grows most, of the short period the one that
+    decays most.
     """
     chosen = (modes == mode) & (values.imag >= 0.0)
     growth = np.where(chosen, values.real, np.nan)

@@ -213,7 +213,7 @@ def _names(
         end = np.clip(start, chosen[:2], chosen[2:])
         if np.hypot(*(end - start)) > _FAR:
             thread = np.array([(x, y), paper.values((end[0], end[1]))]).T
-            items.append(Line(*thread, "muted", width=0.8))
+            items.append(Line(thread[0], thread[1], "muted", width=0.8))
             points = np.concatenate([points, paper.along(*thread)])
         middle = paper.values((chosen[0], (chosen[1] + chosen[3]) / 2.0))
         items.append(Note(*middle, text, "ink", bold=True))

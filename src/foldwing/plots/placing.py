@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -14,6 +15,10 @@ TEXT_HEIGHT = 0.15
 """Height of a line of text in inches."""
 _LETTER = 0.085
 """Width of a letter."""
+_RIM = 0.03
+"""Width of the rim of a text."""
+_MARK = 0.06
+"""Radius of a mark."""
 _STEP = 0.04
 """Distance of the points that stand for a line."""
 _LONGEST = 20.0
@@ -54,12 +59,18 @@ class Paper:
         """Return points on paper close to each other along a polyline; nan breaks it."""
         corners = self.inches(x, y)
         parts = [corners[np.isfinite(corners).all(axis=1)]]
-        for start, end in zip(corners[:-1], corners[1:], strict=True):
+        for start, end in pairwise(corners):
             length = float(np.hypot(*(end - start)))
             if np.isfinite(length) and length > _STEP:
                 share = np.linspace(0.0, 1.0, int(min(length, _LONGEST) / _STEP) + 1)
                 parts.append(start + share[:, None] * (end - start))
         return np.concatenate(parts)
+
+    def rims(self, x: Array, y: Array) -> Array:
+        """Return points on paper around marks, which weigh more than those of a line."""
+        turn = np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False)
+        around = _MARK * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        return (self.inches(x, y)[:, None, :] + around).reshape(-1, 2)
 
 
 def text_width(text: str) -> float:
@@ -94,6 +105,14 @@ def around(start: Array, width: float) -> list[Box]:
     return boxes
 
 
+def along_rule(at: float, text: str, paper: Paper) -> list[Box]:
+    """Return boxes for a text on both sides of an upright rule, the upper ones first."""
+    width = text_width(text)
+    tops = np.arange(paper.height - 0.05, TEXT_HEIGHT, -TEXT_HEIGHT)
+    lefts = (at + 0.07, at - 0.07 - width)
+    return [(left, float(t) - TEXT_HEIGHT, left + width, float(t)) for t in tops for left in lefts]
+
+
 def corner_words(paper: Paper) -> list[Box]:
     """Return the place of the words stable and unstable at the top of a plane of eigenvalues."""
     zero = float(paper.inches(np.zeros(1), np.zeros(1))[0, 0])
@@ -104,7 +123,7 @@ def corner_words(paper: Paper) -> list[Box]:
 
 def _cost(box: Box, points: Array, taken: Sequence[Box], paper: Paper) -> float:
     left, bottom, right, top = box
-    covered = (points[:, 0] > left) & (points[:, 0] < right)
+    covered = (points[:, 0] > left - _RIM) & (points[:, 0] < right + _RIM)
     covered &= (points[:, 1] > bottom) & (points[:, 1] < top)
     others = sum(left < b[2] and b[0] < right and bottom < b[3] and b[1] < top for b in taken)
     outside = left < 0.0 or bottom < 0.0 or right > paper.width or top > paper.height
