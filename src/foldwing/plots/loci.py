@@ -47,6 +47,8 @@ _SIZE = (6.02, 1.8)
 """Width of the root locus in inches and its relative height."""
 _FAR = 0.25
 """Distance in inches of a name from its path from which on a line joins them."""
+_OWN = 0.12
+"""Distance in inches around the beginning of a path where other names would mislead."""
 
 
 def against_speed(dataset: "xarray.Dataset") -> Picture | None:
@@ -209,7 +211,9 @@ def _names(
     for x, y, text in sorted(names, key=lambda name: (name[1], name[0])):
         start = paper.inches(np.array([x]), np.array([y]))[0]
         boxes = around(start, text_width(text))
-        chosen = boxes[clearest(boxes, points, taken, paper)]
+        others = np.array([(at, up) for at, up, name in names if name != text]).reshape(-1, 2)
+        avoided = np.concatenate([points, paper.rims(*others.T, _OWN)])
+        chosen = boxes[clearest(boxes, avoided, taken, paper)]
         end = np.clip(start, chosen[:2], chosen[2:])
         if np.hypot(*(end - start)) > _FAR:
             thread = np.array([(x, y), paper.values((end[0], end[1]))]).T

@@ -17,7 +17,7 @@ _LETTER = 0.085
 """Width of a letter."""
 _RIM = 0.03
 """Width of the rim of a text."""
-_MARK = 0.06
+MARK = 0.06
 """Radius of a mark."""
 _STEP = 0.04
 """Distance of the points that stand for a line."""
@@ -66,10 +66,10 @@ class Paper:
                 parts.append(start + share[:, None] * (end - start))
         return np.concatenate(parts)
 
-    def rims(self, x: Array, y: Array) -> Array:
+    def rims(self, x: Array, y: Array, radius: float = MARK) -> Array:
         """Return points on paper around marks, which weigh more than those of a line."""
         turn = np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False)
-        around = _MARK * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        around = radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)
         return (self.inches(x, y)[:, None, :] + around).reshape(-1, 2)
 
 
