@@ -24,6 +24,13 @@ def _dataset(request):
     return flight_study(craft, speeds=SPEEDS).dataset
 
 
+@pytest.fixture(name="turning")
+def _turning():
+    """At the lowest airspeed alone the phugoid is real, beside an oscillation."""
+    craft = airframe(centre_of_gravity=0.65)
+    return flight_study(craft, speeds=(20.0, *SPEEDS[1:])).dataset
+
+
 def on_paper(panel, x, y):
     """Points in inches."""
     scale = [
@@ -85,16 +92,16 @@ def test_a_panel_for_each_mode(dataset):
     assert len(flight_against_speed(dataset).panels) == 2 * modes + 2
 
 
-def test_every_panel_shows_something(dataset):
-    for picture in (flight_eigenvalues(dataset), flight_against_speed(dataset)):
+def test_every_panel_shows_something(turning):
+    for picture in (flight_eigenvalues(turning), flight_against_speed(turning)):
         for panel in picture.panels[:-1]:
             marks = [item for item in panel.items if isinstance(item, Marks)]
             assert sum(np.isfinite(mark.x).sum() for mark in marks) > 0
 
 
-def test_no_line_joins_a_real_root_to_an_oscillation(dataset):
-    panels = flight_eigenvalues(dataset).panels
-    panels += [p for p in flight_against_speed(dataset).panels if p.y_label.startswith("freq")]
+def test_no_line_joins_a_real_root_to_an_oscillation(turning):
+    panels = flight_eigenvalues(turning).panels
+    panels += [p for p in flight_against_speed(turning).panels if p.y_label.startswith("freq")]
     lines = [item for panel in panels for item in panel.items if isinstance(item, Line)]
     for line in lines:
         pairs = np.stack([line.y[:-1], line.y[1:]])
@@ -103,9 +110,9 @@ def test_no_line_joins_a_real_root_to_an_oscillation(dataset):
 
 
 def test_an_oscillation_has_one_line_for_each_model(dataset):
-    for panel in flight_against_speed(dataset).panels[:-2]:
+    for panel in [*flight_eigenvalues(dataset).panels, *flight_against_speed(dataset).panels[:-2]]:
         drawn = [
-            (item.name, tuple(item.y)) for item in panel.items
+            (item.color, *item.x.tolist(), *item.y.tolist()) for item in panel.items
             if isinstance(item, Line) and np.isfinite(item.y).sum() > 1
         ]  # fmt: skip
         assert len(set(drawn)) == len(drawn)
