@@ -15,16 +15,16 @@ from foldwing.plots.clamped import beside_clamped
 from foldwing.plots.energy import work_of_segments
 from foldwing.plots.events import event_marks
 from foldwing.plots.frequencies import natural_frequencies
-from foldwing.plots.layout import end_labels, upright_labels
 from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.motions import motions
 from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import Area, Bars, Dot, Graded, Line, Marks, Note, Panel, Rule, Thread
-from foldwing.plots.placing import Paper, clearest
+from foldwing.plots.placing import Paper
 from foldwing.plots.report import report_html
 from foldwing.plots.shapes import mode_shapes
 from foldwing.plots.trim import trim, trim_against_speed
 from foldwing.results import flutter_rows
+from foldwing.results.aircraft_table import trim_table
 from foldwing.studies.aircraft import aircraft_study
 from foldwing.studies.modes import modes_study
 from support import datasets
@@ -107,32 +107,23 @@ def test_mergers_of_a_motion_and_of_flutter_differ(dataset):
     }  # fmt: skip
 
 
-@pytest.mark.parametrize("count", [3, 13, 40])
-def test_labels_at_line_ends_stay_in_their_panel(count):
-    ends = [(-40.0 + 0.1 * i, f"B{i}", "ink") for i in range(count)]
-    heights = [note.y for note in end_labels(ends, 1.0, (-40.0, 20.0), height=1.1)]
-    assert len(heights) == count and min(heights) >= -40.0 and max(heights) <= 20.0
-    gap = min(0.15, 2.8 / count) / (1.1 * 2.6) * 60.0
-    assert np.diff(sorted(heights)).min() >= gap
+def test_single_mergers_of_neighbouring_folds_are_joined_beside_followed_curves(sweep):
+    values = {"id": [1, 1], "fold": [0.0, 10.0], "speed": [20.0, 21.0], "frequency": [9.0, 9.1],
+              "strength": [0.1, 0.1], "kind": ["flutter"] * 2}  # fmt: skip
+    traced = sweep.assign({f"curve_{key}": ("curve_point", x) for key, x in values.items()})
+    mergers = [row for row in flutter_rows(sweep) if row.event == "merger"]
+    lines = [i for i in of(boundary(traced).panels[0], Line) if i.color == "divergence"]
+    joined = {(x, y) for line in lines for x, y in zip(line.x, line.y, strict=True) if x == x}
+    assert joined and joined <= {(row.fold[0], row.speed) for row in mergers}
+    twice = traced.isel(flutter_point=np.repeat(np.arange(traced.sizes["flutter_point"]), 2))
+    assert not [i for i in of(boundary(twice).panels[0], Line) if i.color == "divergence"]
 
 
-def test_upright_labels_keep_off_every_rule_and_in_the_panel():
-    rules = [(39.2, "a", "ink"), (40.4, "b", "ink"), (41.1, "c", "ink"), (41.2, "d", "ink")]
-    labels = upright_labels(rules, 0.0, (0.0, 41.5), 2.7)
-    inch = 41.5 / 2.7
-    places = {note.text: note.x for note in labels}
-    assert sorted(places, key=places.get) == ["a", "b", "c", "d"]
-    assert np.diff(sorted(places.values())).min() >= 0.15 * inch
-    for x in places.values():
-        assert 0.0 < x < 41.5 and min(abs(x - at) for at, *_ in rules) > 0.07 * inch
-
-
-def test_a_text_covers_no_line_when_there_is_room_beside_it():
-    paper = Paper((0.0, 10.0), (0.0, 1.0), 5.0, 2.0)
-    line = paper.along(np.array([0.0, 10.0]), np.array([0.5, 0.5]))
-    boxes = [(1.0, 0.95, 2.0, 1.1), (4.8, 1.2, 5.8, 1.35), (1.0, 1.1, 2.0, 1.25)]
-    assert clearest(boxes, line, [], paper) == 2
-    assert clearest(boxes, line, [boxes[2]], paper) == 0
+def test_the_table_of_trim_shows_zero_without_a_sign(dataset):
+    tiny = np.full(dataset["surface_lift_coefficient"].shape, -0.0004)
+    coefficients = (dataset["surface_lift_coefficient"].dims, tiny)
+    rows = trim_table(dataset.assign(surface_lift_coefficient=coefficients)).rows
+    assert {cell for row in rows for cell in row[3:]} == {"0.000"}
 
 
 # ------------------------------------------------------------------------ beside the clamped wing
