@@ -212,7 +212,7 @@ def _names(
         start = paper.inches(np.array([x]), np.array([y]))[0]
         boxes = around(start, text_width(text))
         others = np.array([(at, up) for at, up, name in names if name != text]).reshape(-1, 2)
-        avoided = np.concatenate([points, paper.rims(*others.T, _OWN)])
+        avoided = np.concatenate([points, paper.rims(others[:, 0], others[:, 1], _OWN)])
         chosen = boxes[clearest(boxes, avoided, taken, paper)]
         end = np.clip(start, chosen[:2], chosen[2:])
         if np.hypot(*(end - start)) > _FAR:

@@ -1,5 +1,6 @@
 """Phugoid and short period of an aircraft against airspeed, the slow one magnified."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,6 +38,8 @@ def motions(dataset: "xarray.Dataset") -> Picture | None:
         _all(every, found),
     ]
     shown = [column for column in columns if column is not None]
+    if len(shown) > 1:
+        shown[1] = [replace(panel, y_label="") for panel in shown[1]]  # names stand there
     panels = [panel for row in zip(*shown, strict=True) for panel in row]
     magnified = (
         " Left the phugoid, magnified; where its frequency falls to zero it turns into two real "
