@@ -1,5 +1,8 @@
 """Pictures of aircraft: what is drawn is what the dataset holds, and what is left out is named."""
 
+from dataclasses import replace
+from itertools import combinations
+
 import numpy as np
 import pytest
 
@@ -10,15 +13,18 @@ from foldwing.plots.boundary import boundary, boundary_map
 from foldwing.plots.catalogue import pictures
 from foldwing.plots.clamped import beside_clamped
 from foldwing.plots.energy import work_of_segments
+from foldwing.plots.events import event_marks
 from foldwing.plots.frequencies import natural_frequencies
 from foldwing.plots.loci import against_speed, root_locus
 from foldwing.plots.motions import motions
 from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import Area, Bars, Dot, Graded, Line, Marks, Note, Panel, Rule, Thread
+from foldwing.plots.placing import Paper
 from foldwing.plots.report import report_html
 from foldwing.plots.shapes import mode_shapes
 from foldwing.plots.trim import trim, trim_against_speed
 from foldwing.results import flutter_rows
+from foldwing.results.aircraft_table import trim_table
 from foldwing.studies.aircraft import aircraft_study
 from foldwing.studies.modes import modes_study
 from support import datasets
@@ -53,6 +59,71 @@ def column(dataset, name):
 
 def notes(panel):
     return [note.text for note in of(panel, Note)]
+
+
+# -------------------------------------------------------------------------------- labels and marks
+
+
+def test_names_in_the_root_locus_stand_beside_each_other(dataset):
+    (panel,) = root_locus(dataset).panels
+    paper = Paper(panel.x_range, panel.y_range, 6.02, panel.height * 2.6)
+    names = [note for note in of(panel, Note) if note.text in dataset["branch_name"].values]
+    assert {"phugoid", "short period", "B1", "D1"} <= {note.text for note in names}
+    corners = [paper.inches(note.x, note.y) for note in names]
+    for i, j in combinations(range(len(names)), 2):
+        across, up = np.abs(corners[i] - corners[j])
+        first = min((corners[i][0], names[i].text), (corners[j][0], names[j].text))[1]
+        assert up >= 0.12 or across >= 0.06 * len(first), (names[i].text, names[j].text)
+    for corner in corners:
+        assert 0.0 <= corner[0] <= paper.width and 0.0 <= corner[1] <= paper.height
+
+
+def test_the_root_locus_marks_where_the_phugoid_turns_real(dataset):
+    (panel,) = root_locus(dataset).panels
+    (mark,) = [m for m in of(panel, Marks) if "merger" in m.label]
+    (row,) = [row for row in flutter_rows(dataset) if row.event == "merger"]
+    after = int(np.searchsorted(dataset["speed"].values, row.speed))
+    growth = dataset["growth"].values[0]
+    phugoid = growth[after - 1, column(dataset, "phugoid")]
+    assert mark.y[0] == 0.0 and mark.x[0] == phugoid
+    low, high = sorted(growth[after, column(dataset, name)] for name in ("D1", "D2"))
+    assert low < mark.x[0] < high
+
+
+def test_a_real_root_that_leaves_the_magnified_panel_is_named(dataset):
+    panels = motions(dataset).panels
+    growth = next(p for p in panels if p.y_label.startswith("growth"))
+    assert {"D1", "D2"} <= set(notes(growth))
+    assert all(growth.y_range[0] <= note.y <= growth.y_range[1] for note in of(growth, Note))
+
+
+def test_mergers_of_a_motion_and_of_flutter_differ(dataset):
+    (row,) = [row for row in flutter_rows(dataset) if row.event == "merger"]
+    other = replace(row, motion="elastic", mode_name="B1")
+    first, second = event_marks([row, other], [1.0, 2.0], [0.0, 0.0], {})
+    assert first.symbol != second.symbol
+    assert {first.label, second.label} == {
+        "phugoid turns into divergence (merger)", "flutter turns into divergence (merger)",
+    }  # fmt: skip
+
+
+def test_single_mergers_of_neighbouring_folds_are_joined_beside_followed_curves(sweep):
+    values = {"id": [1, 1], "fold": [0.0, 10.0], "speed": [20.0, 21.0], "frequency": [9.0, 9.1],
+              "strength": [0.1, 0.1], "kind": ["flutter"] * 2}  # fmt: skip
+    traced = sweep.assign({f"curve_{key}": ("curve_point", x) for key, x in values.items()})
+    mergers = [row for row in flutter_rows(sweep) if row.event == "merger"]
+    lines = [i for i in of(boundary(traced).panels[0], Line) if i.color == "divergence"]
+    joined = {(x, y) for line in lines for x, y in zip(line.x, line.y, strict=True) if x == x}
+    assert joined and joined <= {(row.fold[0], row.speed) for row in mergers}
+    twice = traced.isel(flutter_point=np.repeat(np.arange(traced.sizes["flutter_point"]), 2))
+    assert not [i for i in of(boundary(twice).panels[0], Line) if i.color == "divergence"]
+
+
+def test_the_table_of_trim_shows_zero_without_a_sign(dataset):
+    tiny = np.full(dataset["surface_lift_coefficient"].shape, -0.0004)
+    coefficients = (dataset["surface_lift_coefficient"].dims, tiny)
+    rows = trim_table(dataset.assign(surface_lift_coefficient=coefficients)).rows
+    assert {cell for row in rows for cell in row[3:]} == {"0.000"}
 
 
 # ------------------------------------------------------------------------ beside the clamped wing
@@ -174,7 +245,7 @@ def test_the_phugoid_is_magnified_until_it_turns_real(dataset):
     for panel in (left, below):
         assert merger.speed in [rule.at for rule in of(panel, Rule)]
     (mark,) = of(left, Marks)
-    assert (mark.x[0], mark.y[0], mark.symbol) == (merger.speed, 0.0, "diamond")
+    assert (mark.x[0], mark.y[0], mark.symbol) == (merger.speed, 0.0, "triangle-down")
     assert mark.label == "phugoid turns into divergence (merger)"
     assert {"D1", "D2"} <= set(curves(below, "growth"))
 
@@ -320,7 +391,7 @@ def test_a_phugoid_that_begins_to_grow_is_no_boundary(sweep):
 def test_a_merger_of_the_phugoid_is_divergence(sweep):
     speed = boundary(sweep).panels[0]
     mergers = [row for row in flutter_rows(sweep) if row.event == "merger"]
-    (marks,) = [m for m in of(speed, Marks) if m.symbol == "diamond"]
+    (marks,) = [m for m in of(speed, Marks) if m.symbol == "triangle-down"]
     assert marks.label == "phugoid turns into divergence (merger)"
     assert sorted(marks.y) == sorted(row.speed for row in mergers)
     shaded = [area for area in of(speed, Area) if area.color == "divergence"]

@@ -9,7 +9,8 @@ from foldwing import plots
 from foldwing.plots.catalogue import pictures
 from foldwing.plots.flight import _ARROW, _SIZE, flight_paths, flight_paths_relative
 from foldwing.plots.flight_modes import flight_against_speed, flight_eigenvalues
-from foldwing.plots.picture import Line, Marks
+from foldwing.plots.picture import Line, Marks, Note
+from foldwing.results.flight_summary import flight_answer
 from foldwing.studies.flight import flight_study
 from support.aircraft import airframe
 from support.datasets import modes_dataset
@@ -21,6 +22,13 @@ SPEEDS = (30.0, 42.0, 54.0)
 def _dataset(request):
     craft = airframe(centre_of_gravity=request.param)
     return flight_study(craft, speeds=SPEEDS).dataset
+
+
+@pytest.fixture(name="turning")
+def _turning():
+    """At the lowest airspeed alone the phugoid is real, beside an oscillation."""
+    craft = airframe(centre_of_gravity=0.65)
+    return flight_study(craft, speeds=(20.0, *SPEEDS[1:])).dataset
 
 
 def on_paper(panel, x, y):
@@ -82,6 +90,67 @@ def test_a_panel_for_each_mode(dataset):
     modes = len(set(dataset["swept_mode"].values.ravel()) - {""})
     assert len(flight_eigenvalues(dataset).panels) == modes
     assert len(flight_against_speed(dataset).panels) == 2 * modes + 2
+
+
+def test_every_eigenvalue_of_a_few_airspeeds_has_a_mark(turning):
+    panels = flight_eigenvalues(turning).panels
+    assert len(panels) == 3
+    for panel in panels:
+        (mode,) = [item.text for item in panel.items if isinstance(item, Note)]
+        marks = [item for item in panel.items if isinstance(item, Marks)]
+        names = ("swept_mode", "swept_eigenvalue"), ("flight_mode", "flight_eigenvalue")
+        found = [turning[v].values[turning[m].values == mode] for m, v in names]
+        assert sum(np.isfinite(mark.x).sum() for mark in marks) == sum(
+            int((values.imag >= 0.0).sum()) for values in found
+        )
+
+
+def test_no_line_joins_a_real_root_to_an_oscillation(turning):
+    panels = flight_eigenvalues(turning).panels
+    panels += [p for p in flight_against_speed(turning).panels if p.y_label.startswith("freq")]
+    lines = [item for panel in panels for item in panel.items if isinstance(item, Line)]
+    for line in lines:
+        pairs = np.stack([line.y[:-1], line.y[1:]])
+        oscillates = pairs[:, np.isfinite(pairs).all(axis=0)] > 0.0
+        np.testing.assert_array_equal(oscillates[0], oscillates[1])
+
+
+def test_an_oscillation_has_one_line_for_each_model(dataset):
+    for panel in flight_eigenvalues(dataset).panels:
+        lines = [item for item in panel.items if isinstance(item, Line)]
+        drawn = [(i.color, *i.x.tolist()) for i in lines if np.isfinite(i.x).sum() > 1]
+        assert drawn and len(set(drawn)) == len(drawn)
+    for panel in flight_against_speed(dataset).panels[:-2]:
+        lines = [item for item in panel.items if isinstance(item, Line)]
+        drawn = [(i.color, *i.y.tolist()) for i in lines if np.isfinite(i.y).sum() > 1]
+        assert drawn and len(set(drawn)) == len(drawn)
+
+
+def test_the_caption_says_that_the_product_hardly_changes_only_when_it_does(dataset):
+    assert "hardly changes" in flight_against_speed(still(dataset, 1.02)).caption
+    assert "hardly changes" not in flight_against_speed(still(dataset, 1.15)).caption
+
+
+def still(dataset, end):
+    """The dataset with products that rise from 13 to so many times that."""
+    shape = dataset["phugoid_product"].shape
+    product = 13.0 * np.linspace(1.0, end, shape[1]) * np.ones(shape)
+    return dataset.assign(phugoid_product=(dataset["phugoid_product"].dims, product))
+
+
+def test_the_answer_names_each_mode_once(dataset):
+    answer = flight_answer(dataset)
+    for mode in set(dataset["flight_mode"].values[0]) - {""}:
+        assert answer.lower().count(f"the {mode}") == 1
+
+
+def test_two_real_roots_are_told_together(turning):
+    first = turning.isel(flight_model=0)
+    modes, values = first["flight_mode"].values, first["flight_eigenvalue"].values
+    assert (values[modes == "short period"].imag == 0.0).sum() == 2
+    answer = flight_answer(turning)
+    assert "the short period does not oscillate but has two aperiodic motions: one " in answer
+    assert answer.count("short period") == 1
 
 
 def test_both_renderers_draw(dataset):

@@ -284,20 +284,44 @@ def _lines(
     quantity: str,
     colors: dict[str, str],
 ) -> list[Item]:
-    """Thin lines: the continuation curves when there are any, else between close neighbours."""
-    if "curve_id" in dataset:
-        return list(_curves(dataset, quantity))
+    """Thin lines: the continuation curves, and between close neighbours what none follows."""
 
     def coordinates(row: FlutterRow) -> tuple[float, float]:
         return float(swept.values[row.case]), float(getattr(row, quantity))
 
+    followed = list(_curves(dataset, quantity)) if "curve_id" in dataset else []
+    groups = _alone(dataset, rows) if followed else _alike(rows)
+    return [
+        *followed,
+        *(
+            Line(*_joined(group, swept, coordinates), color_of(group[0], colors), width=1.0)
+            for group in groups
+        ),
+    ]
+
+
+def _alike(rows: Sequence[FlutterRow]) -> list[list[FlutterRow]]:
+    """Return the points of one kind, event and mode together."""
     groups: dict[tuple[str, str, str], list[FlutterRow]] = {}
     for row in rows:
         groups.setdefault((row.kind, row.event, row.mode_name), []).append(row)
-    return [
-        Line(*_joined(group, swept, coordinates), color_of(group[0], colors), width=1.0)
-        for group in groups.values()
-    ]
+    return list(groups.values())
+
+
+def _alone(dataset: "xarray.Dataset", rows: Sequence[FlutterRow]) -> list[list[FlutterRow]]:
+    """Return points of divergence that no curve follows: of each event and motion one a case."""
+    if (dataset["curve_kind"].values == "divergence").any():
+        return []
+    groups: dict[tuple[str, str], list[FlutterRow]] = {}
+    for row in rows:
+        if row.kind == "divergence":
+            groups.setdefault((row.event, row.motion), []).append(row)
+    single = []
+    for group in groups.values():
+        cases = [row.case for row in group]
+        kept = [row for row in group if cases.count(row.case) == 1]
+        single += [kept] if kept else []
+    return single
 
 
 def _joined(

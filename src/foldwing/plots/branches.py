@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldwing.plots.events import color_of, event_marks, words
+from foldwing.plots.events import color_of, event_marks, short_words
 from foldwing.plots.layout import dash_of, end_labels, upright_labels
 from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import Area, Array, Item, Line, Marks, Note, Range, Rule, padded
@@ -173,12 +173,25 @@ def frequency_marks(branches: Branches) -> list[Marks]:
     return event_marks(rows, *at, branches.colors, units=branches.units)
 
 
+def leaving(branches: Branches, values: Array, y_range: Range) -> list[Note]:
+    """Return the names of branches that end above a panel, where they leave it."""
+    notes = []
+    for branch, name in enumerate(branches.names):
+        y = values[:, branch]
+        finite = np.flatnonzero(np.isfinite(y))
+        inside = np.flatnonzero((y >= y_range[0]) & (y <= y_range[1]))
+        if inside.size and y[finite[-1]] > y_range[1]:
+            x, color = float(branches.speed[inside[-1]]), branches.colors[name]
+            notes.append(Note(x, y_range[1], name, color, "left", "top", 9, -4, bold=True))
+    return notes
+
+
 def rule_labels(branches: Branches, y: float, inches: float = PLOT_INCHES) -> list[Note]:
     """Return what happens at each event and its airspeed, upright from ``y`` on."""
     events = [
         (
             row.speed,
-            f"{words(row).partition(' (')[0]} {row.speed:.3g} {branches.units.speed}",
+            f"{short_words(row)} {row.speed:.3g} {branches.units.speed}",
             color_of(row, branches.colors),
         )
         for row in branches.rows

@@ -18,6 +18,9 @@ _SYMBOLS: dict[tuple[str, str], Symbol] = {
     ("divergence", "merger"): "diamond",
 }
 
+Group = tuple[str, str, str, str, Symbol]
+"""Kind, event, label, colour and symbol of points that look alike."""
+
 _WORDS = {
     ("flutter", "onset"): "flutter begins",
     ("flutter", "recovery"): "flutter ends",
@@ -25,6 +28,15 @@ _WORDS = {
     ("divergence", "recovery"): "divergence ends",
     ("divergence", "merger"): "flutter turns into divergence (merger)",
 }
+
+
+_TURNS: Symbol = "triangle-down"
+"""Where a motion of an aircraft as a whole turns into divergence."""
+
+
+def short_words(row: FlutterRow) -> str:
+    """Return what happens at a flutter point in two words, for a legend tells more."""
+    return "merger" if row.event == "merger" else words(row)
 
 
 def words(row: FlutterRow) -> str:
@@ -42,6 +54,8 @@ def words(row: FlutterRow) -> str:
 
 def symbol_of(row: FlutterRow) -> Symbol:
     """Return the symbol of a flutter point."""
+    if row.event == "merger" and row.motion != ELASTIC:
+        return _TURNS
     return _SYMBOLS.get((row.kind, row.event), "x")
 
 
@@ -84,27 +98,27 @@ def event_marks(
     units : Units
         Of the rows, for hovering.
     """
-    groups: dict[tuple[str, str, str, str], list[int]] = {}
+    groups: dict[Group, list[int]] = {}
     for index, row in enumerate(rows):
         label = words(row)
         if by_mode and row.kind == "flutter" and not row.as_a_whole:
             label += f", mode {row.mode_name}"
-        key = (row.kind, row.event, label, color_of(row, colors))
+        key = (row.kind, row.event, label, color_of(row, colors), symbol_of(row))
         groups.setdefault(key, []).append(index)
     return [
         Marks(
             np.array([x[index] for index in members], float),
             np.array([y[index] for index in members], float),
-            _SYMBOLS.get((kind, event), "x"),
+            symbol,
             color,
             label,
             6.5,
             [hover_text(rows[index], units) for index in members],
         )
-        for (kind, event, label, color), members in sorted(groups.items(), key=_legend_order)
+        for (_, _, label, color, symbol), members in sorted(groups.items(), key=_legend_order)
     ]
 
 
-def _legend_order(group: tuple[tuple[str, str, str, str], list[int]]) -> tuple[bool, str, str]:
-    kind, event, label, _ = group[0]
+def _legend_order(group: tuple[Group, list[int]]) -> tuple[bool, str, str]:
+    kind, event, label, *_ = group[0]
     return kind != "flutter", label.rpartition("mode ")[2], event

@@ -33,6 +33,8 @@ _SIZES = (6.0, 11.0, 7.0, 7.5, 8.0, 7.0)
 _DASHES: tuple[Dash, ...] = ("solid", "dash", "dot")
 _MOST_MARKS = 30
 """Airspeeds up to which each is marked."""
+_HARDLY = 0.05
+"""Relative change of the product that is hardly one."""
 
 
 def flight_eigenvalues(dataset: "xarray.Dataset") -> Picture | None:
@@ -42,7 +44,9 @@ def flight_eigenvalues(dataset: "xarray.Dataset") -> Picture | None:
     panels = [_plane(dataset, mode) for mode in _modes(dataset)]
     speed = dataset.attrs.get("airspeed")
     where = "" if speed is None else f" at {speed:.4g} m/s"
-    swept = " Lines: their paths over the airspeeds." if "swept_eigenvalue" in dataset else ""
+    few = dataset.sizes.get("speed", 0) <= _MOST_MARKS
+    steps = ", with a small mark at each" if few else ""
+    swept = f" Lines: their paths over the airspeeds{steps}." if "swept_mode" in dataset else ""
     return Picture(
         "flight-eigenvalues",
         f"How fast the motions go and how soon they die out{where}",
@@ -65,8 +69,8 @@ def flight_against_speed(dataset: "xarray.Dataset") -> Picture | None:
     return Picture(
         "flight-against-speed",
         "The modes against the airspeed of level flight",
-        f"{subtitle(dataset)}. Of a phugoid that oscillates the product of frequency and airspeed "
-        "(bottom left) hardly changes; dotted there: √2 g, the simple phugoid without drag.",
+        f"{subtitle(dataset)}. {_product_words(dataset)} Dotted there: √2 g, the simple phugoid "
+        "without drag.",
         [*panels, _product(dataset), _lift(dataset)],
         columns=2,
     )
@@ -92,7 +96,10 @@ def _plane(dataset: "xarray.Dataset", mode: str) -> Panel:
     y_range = _upwards(np.concatenate(heights), 0.1)
     items: list[Item] = [*_shaded(x_range, y_range), Rule(0.0, "y")]
     for at, (x, y) in enumerate(paths):
-        items += [Line(x[:, i], y[:, i], _color(at), _dash(at), 1.2) for i in range(x.shape[1])]
+        for i in range(x.shape[1]):
+            broken = _broken(x[:, i], y[:, i], y[:, i] > 0.0)
+            items.append(Line(*broken, _color(at), _dash(at), 1.2))
+            items += _steps(dataset, at, x[:, i], y[:, i])
     for at, name in enumerate(_models(dataset)):
         kept = np.isfinite(growth[at])
         marks = growth[at][kept], frequency[at][kept]
@@ -128,12 +135,13 @@ def _paths(dataset: "xarray.Dataset", mode: str) -> list[tuple[Array, Array]]:
 def _of_mode(values: Array, modes: Array, mode: str) -> tuple[Array, Array]:
     """Return growth and frequency of the roots of a mode, two columns, nan where there are none.
 
-    The first column is the root that stays when the mode has lost one: of the phugoid the one that
-    grows most, of the short period the one that decays most.
+    An oscillation is one root, without its conjugate. The first column is the root that stays when
+    the mode has lost one: of the phugoid the one that grows most, of the short period the one that
+    decays most.
     """
-    chosen = modes == mode
+    chosen = (modes == mode) & (values.imag >= 0.0)
     growth = np.where(chosen, values.real, np.nan)
-    frequency = np.where(chosen, np.abs(values.imag), np.nan)
+    frequency = np.where(chosen, values.imag, np.nan)
     rank = -growth if mode == _MODES[0] else growth
     order = np.argsort(np.where(chosen, rank, np.inf), axis=-1, kind="stable")[..., :2]
     return np.take_along_axis(growth, order, -1), np.take_along_axis(frequency, order, -1)
@@ -149,29 +157,57 @@ def _upwards(values: Array, room: float) -> Range:
 def _against(dataset: "xarray.Dataset", mode: str, quantity: str) -> Panel:
     speed = dataset["speed"].values
     which = 0 if quantity.startswith("growth") else 1
-    curves = [path[which] for path in _paths(dataset, mode)]
+    paths = _paths(dataset, mode)
+    curves = [path[which] for path in paths]
     y_range = _upwards(np.concatenate([curve.ravel() for curve in curves]), 0.08)
     items: list[Item] = [Rule(0.0, "y", "ink", width=1.0)]
     for at, curve in enumerate(curves):
-        items += _curves(dataset, at, speed, curve)
+        items += _curves(dataset, at, curve, paths[at][1] > 0.0)
     items.append(_name(dataset, mode, y_range))
     return Panel("airspeed (m/s)", quantity, items, _across(speed), y_range, height=0.8)
 
 
-def _curves(dataset: "xarray.Dataset", at: int, speed: Array, curve: Array) -> list[Item]:
+def _curves(dataset: "xarray.Dataset", at: int, curve: Array, oscillates: Array) -> list[Item]:
     """Return the lines of one model, with a mark at each of a few airspeeds."""
-    name = _models(dataset)[at]
+    name, speed = _models(dataset)[at], dataset["speed"].values
     items: list[Item] = []
     for column in range(curve.shape[1]):
         y = curve[:, column]
+        if column:
+            y = np.where(y == curve[:, 0], np.nan, y)
         if not np.isfinite(y).any():
             continue
-        items.append(Line(speed, y, _color(at), _dash(at), 1.6, name=name, label=name))
-        if len(speed) <= _MOST_MARKS:
-            items.append(
-                Marks(speed, y, _symbol(at), _color(at), "", 0.65 * _size(at), [name] * len(speed))
-            )
+        broken = _broken(speed, y, oscillates[:, column])
+        items.append(Line(*broken, _color(at), _dash(at), 1.6, name=name, label=name))
+        items += _steps(dataset, at, speed, y)
     return items
+
+
+def _broken(x: Array, y: Array, oscillates: Array) -> tuple[Array, Array]:
+    """Return a curve that is cut where a real root and an oscillation follow each other."""
+    cuts = np.flatnonzero(oscillates[1:] != oscillates[:-1]) + 1
+    return np.insert(x, cuts, np.nan), np.insert(y, cuts, np.nan)
+
+
+def _steps(dataset: "xarray.Dataset", at: int, x: Array, y: Array) -> list[Item]:
+    """Return a small mark at each of a few airspeeds; of many, where no line can be drawn."""
+    marked = np.isfinite(x) & np.isfinite(y)
+    if len(x) > _MOST_MARKS:
+        around = np.pad(marked, 1)
+        marked &= ~(around[:-2] | around[2:])
+    if not marked.any():
+        return []
+    name = [_models(dataset)[at]] * int(marked.sum())
+    return [Marks(x[marked], y[marked], _symbol(at), _color(at), "", 0.65 * _size(at), name)]
+
+
+def _product_words(dataset: "xarray.Dataset") -> str:
+    """Return what stands bottom left, and whether it hardly changes."""
+    values = dataset["phugoid_product"].values
+    known = [row[np.isfinite(row)] for row in values]
+    steady = all(row.size > 1 and np.ptp(row) < _HARDLY * row.max() for row in known)
+    text = "Bottom left: frequency times airspeed of a phugoid that oscillates"
+    return f"{text}, which hardly changes." if steady else f"{text}."
 
 
 def _product(dataset: "xarray.Dataset") -> Panel:
@@ -181,7 +217,8 @@ def _product(dataset: "xarray.Dataset") -> Panel:
     y_range = (0.0, float(top))
     items: list[Item] = [Rule(constant, "y", "ink", "dot", 1.4)]
     for at in range(len(product)):
-        items += _curves(dataset, at, speed, product[at][:, None])
+        curve = product[at][:, None]
+        items += _curves(dataset, at, curve, np.isfinite(curve))
     items.append(_name(dataset, "phugoid frequency × airspeed", y_range))
     return Panel("airspeed (m/s)", "product (m/s²)", items, _across(speed), y_range, height=0.8)
 

@@ -53,6 +53,7 @@ _SYMBOLS = {
     "x": "x-thin-open",
     "star": "star",
     "triangle": "triangle-up",
+    "triangle-down": "triangle-down",
     "ring": "circle-open",
 }
 _ROLE = re.compile(r"@(\w+)(?:/([\d.]+))?")

@@ -118,9 +118,9 @@ def end_labels(
         return []
     scale: Any = np.log10 if log_y else np.asarray
     low, high = (float(scale(limit)) for limit in y_range)
-    gap = _TEXT_INCHES / (PANEL_INCHES * height) * (high - low)
+    gap = (high - low) * min(_TEXT_INCHES / (PANEL_INCHES * height), 1.0 / len(shown))
     wanted = np.asarray(scale([end[0] for end in shown]), float)
-    placed = _below(spread(wanted, gap), high, gap)
+    placed = _within(spread(wanted, gap), (low, high), gap)
     heights = 10.0**placed if log_y else placed
     return [
         Note(x, float(y), text, color, dx=6, bold=True)
@@ -128,11 +128,12 @@ def end_labels(
     ]
 
 
-def _below(values: Array, high: float, gap: float) -> Array:
-    """Push the uppermost values down until all lie below ``high``."""
+def _within(values: Array, limits: Range, gap: float) -> Array:
+    """Push values that keep a gap into a range that has room for them."""
     rank = np.argsort(np.argsort(values, kind="stable"), kind="stable")
-    lowered: Array = np.minimum(values, high - gap * (len(values) - 1 - rank))
-    return lowered
+    lowered = np.minimum(values, limits[1] - gap * (len(values) - 1 - rank))
+    raised: Array = np.maximum(lowered, limits[0] + gap * rank)
+    return raised
 
 
 def upright_labels(
@@ -143,11 +144,26 @@ def upright_labels(
         return []
     gap = _TEXT_INCHES * 1.15 / inches * (x_range[1] - x_range[0])
     offset = 0.55 * gap
-    placed = spread(np.array([event[0] for event in events]) - offset, gap)
+    rules = np.array([event[0] for event in events])
+    placed = _left_of_rules(rules, offset, gap)
+    if placed.min() < x_range[0] + offset:
+        placed = _within(spread(rules - offset, gap), (x_range[0], x_range[1] - offset), gap)
     return [
         Note(float(x), y, text, color, "center", "bottom", dy=4, upright=True)
         for x, (_, text, color) in zip(placed, events, strict=True)
     ]
+
+
+def _left_of_rules(rules: Array, offset: float, gap: float) -> Array:
+    """Return places left of each rule, a gap apart, that no rule runs through."""
+    placed, limit = np.empty(len(rules)), np.inf
+    for index in np.argsort(rules, kind="stable")[::-1]:
+        place = min(rules[index] - offset, limit)
+        for rule in np.sort(rules)[::-1]:
+            if abs(place - rule) < 0.99 * offset:
+                place = rule - offset
+        placed[index], limit = place, place - gap
+    return placed
 
 
 def focused(growth: Array, depth: float) -> Range:

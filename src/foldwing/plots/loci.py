@@ -1,6 +1,5 @@
 """Eigenvalues against airspeed: growth and frequency below each other, and the root locus."""
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,7 +16,7 @@ from foldwing.plots.branches import (
     unstable_above,
 )
 from foldwing.plots.events import event_marks
-from foldwing.plots.layout import dash_of, focused, subject, subtitle, threshold
+from foldwing.plots.layout import PANEL_INCHES, dash_of, focused, subject, subtitle, threshold
 from foldwing.plots.level_flight import (
     neutral_words,
     out_of_reach,
@@ -36,8 +35,8 @@ from foldwing.plots.picture import (
     Picture,
     Range,
     Rule,
-    spread,
 )
+from foldwing.plots.placing import Paper, around, clearest, corner_words, text_width
 from foldwing.results.aircraft_table import MOTIONS
 from foldwing.results.cases import fold_text
 from foldwing.results.summary import unresolved_below
@@ -45,8 +44,12 @@ from foldwing.results.summary import unresolved_below
 if TYPE_CHECKING:
     import xarray
 
-_PANEL_SHARE = 0.035
-"""Distance of names in the root locus as a share of its height."""
+_SIZE = (6.02, 1.8)
+"""Width of the root locus in inches and its relative height."""
+_FAR = 0.25
+"""Distance in inches of a name from its path from which on a line joins them."""
+_OWN = 0.12
+"""Distance in inches around the beginning of a path where other names would mislead."""
 
 
 def against_speed(dataset: "xarray.Dataset") -> Picture | None:
@@ -119,8 +122,9 @@ def root_locus(dataset: "xarray.Dataset") -> Picture | None:
     units = shown.units
     items: list[Item] = [tint, Rule(0.0, "x", "ink", width=1.2)]
     items += _paths(shown)
-    items += _path_ends(shown, x_range, top)
+    items += _path_ends(shown, Paper(x_range, y_range, _SIZE[0], _SIZE[1] * PANEL_INCHES))
     items += _crossing_marks(shown)
+    items += _merger_marks(shown)
     items += [
         Note(x_range[1], top, "unstable", "unstable", "right", "top", -4, -4, bold=True),
         Note(0.0, top, "stable", "muted", "right", "top", -5, -4, bold=True),
@@ -132,7 +136,11 @@ def root_locus(dataset: "xarray.Dataset") -> Picture | None:
         "from the lowest airspeed (blue) to the highest (orange)."
         + _locus_words(dataset)
         + neutral_words(dataset),
-        [Panel(units.growth_label, units.frequency_label, items, x_range, y_range, height=1.8)],
+        [
+            Panel(
+                units.growth_label, units.frequency_label, items, x_range, y_range, height=_SIZE[1]
+            )
+        ],
     )
 
 
@@ -167,20 +175,20 @@ def _paths(shown: Branches) -> list[Item]:
     return items
 
 
-def _path_ends(shown: Branches, x_range: Range, highest: float) -> list[Item]:
+def _path_ends(shown: Branches, paper: Paper) -> list[Item]:
     """Mark the first and the last point of each path and name it where it comes into view."""
     growth, frequency = shown.growth, shown.frequency
-    notes: list[Note] = []
+    (left, right), (_, highest) = paper.x_range, paper.y_range
+    names: list[tuple[float, float, str]] = []
     ends: tuple[list[tuple[float, float]], ...] = ([], [])
     for branch, name in enumerate(shown.names):
         finite = np.flatnonzero(np.isfinite(growth[:, branch]))
-        inside = (growth[:, branch] >= x_range[0]) & (growth[:, branch] <= x_range[1])
+        inside = (growth[:, branch] >= left) & (growth[:, branch] <= right)
         inside &= frequency[:, branch] <= highest
         seen = np.flatnonzero(inside)
         if not seen.size:
             continue
-        x, y = float(growth[seen[0], branch]), float(frequency[seen[0], branch])
-        notes.append(Note(x, y, name, "ink", dx=7, dy=7, bold=True))
+        names.append((float(growth[seen[0], branch]), float(frequency[seen[0], branch]), name))
         for index, found in ((finite[0], ends[0]), (finite[-1], ends[1])):
             if inside[index]:
                 found.append((float(growth[index, branch]), float(frequency[index, branch])))
@@ -188,13 +196,34 @@ def _path_ends(shown: Branches, x_range: Range, highest: float) -> list[Item]:
     return [
         Marks(x1, y1, "circle-open", "ink", "lowest airspeed", 5),
         Marks(x2, y2, "triangle", "ink", "highest airspeed", 6.5),
-        *_apart(notes, _PANEL_SHARE * highest),
+        *_names(shown, names, paper),
     ]
 
 
-def _apart(notes: list[Note], gap: float) -> list[Note]:
-    y = spread(np.array([note.y for note in notes]), gap)
-    return [replace(note, y=float(at)) for note, at in zip(notes, y, strict=True)]
+def _names(
+    shown: Branches, names: list[tuple[float, float, str]], paper: Paper
+) -> list[Note | Line]:
+    """Return the names of paths where they cover least, those far away with a thin line."""
+    paths = [paper.along(x, y) for x, y in zip(shown.growth.T, shown.frequency.T, strict=True)]
+    axis = paper.along(np.zeros(2), np.array(paper.y_range))
+    points = np.concatenate([axis, *paths])
+    taken = corner_words(paper)
+    items: list[Note | Line] = []
+    for x, y, text in sorted(names, key=lambda name: (name[1], name[0])):
+        start = paper.inches(np.array([x]), np.array([y]))[0]
+        boxes = around(start, text_width(text))
+        others = np.array([(at, up) for at, up, name in names if name != text]).reshape(-1, 2)
+        avoided = np.concatenate([points, paper.rims(others[:, 0], others[:, 1], _OWN)])
+        chosen = boxes[clearest(boxes, avoided, taken, paper)]
+        end = np.clip(start, chosen[:2], chosen[2:])
+        if np.hypot(*(end - start)) > _FAR:
+            thread = np.array([(x, y), paper.values((end[0], end[1]))]).T
+            items.append(Line(thread[0], thread[1], "muted", width=0.8))
+            points = np.concatenate([points, paper.along(*thread)])
+        middle = paper.values((chosen[0], (chosen[1] + chosen[3]) / 2.0))
+        items.append(Note(*middle, text, "ink", bold=True))
+        taken.append(chosen)
+    return items
 
 
 def _crossing_marks(shown: Branches) -> list[Marks]:
@@ -202,3 +231,18 @@ def _crossing_marks(shown: Branches) -> list[Marks]:
     zero = [0.0] * len(rows)
     frequency = [row.frequency for row in rows]
     return event_marks(rows, zero, frequency, shown.colors, units=shown.units)
+
+
+def _merger_marks(shown: Branches) -> list[Marks]:
+    """Mark where an oscillation turns into real roots, at the growth it had just before."""
+    rows, growth = [], []
+    for row in shown.rows:
+        name = row.motion if row.motion in MOTIONS else row.mode_name
+        if row.event != "merger" or name not in shown.names:
+            continue
+        values = shown.growth[:, shown.names.index(name)]
+        before = np.flatnonzero((shown.speed <= row.speed) & np.isfinite(values))
+        if before.size:
+            rows.append(row)
+            growth.append(float(values[before[-1]]))
+    return event_marks(rows, growth, [0.0] * len(rows), shown.colors, units=shown.units)

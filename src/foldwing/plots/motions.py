@@ -1,10 +1,11 @@
 """Phugoid and short period of an aircraft against airspeed, the slow one magnified."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldwing.plots.branches import Branches, branches_of, lines, rule_labels, rules
+from foldwing.plots.branches import Branches, branches_of, leaving, lines, rule_labels, rules
 from foldwing.plots.events import event_marks
 from foldwing.plots.layout import subtitle
 from foldwing.plots.level_flight import slowest
@@ -37,6 +38,8 @@ def motions(dataset: "xarray.Dataset") -> Picture | None:
         _all(every, found),
     ]
     shown = [column for column in columns if column is not None]
+    if len(shown) > 1:
+        shown[1] = [replace(panel, y_label="") for panel in shown[1]]  # names stand there
     panels = [panel for row in zip(*shown, strict=True) for panel in row]
     magnified = (
         " Left the phugoid, magnified; where its frequency falls to zero it turns into two real "
@@ -82,6 +85,7 @@ def _phugoid(every: Branches, found: dict[str, int]) -> list[Panel]:
         items: list[Item] = [Rule(0.0, "y", "ink", width=1.2)]
         named = lines(side, values, y_range, quantity)
         items += [i for i in named if not isinstance(i, Note) or i.text != "phugoid"]
+        items += leaving(side, values, y_range)
         items += rules(side)
         items += _marks(side) if quantity == "frequency" else []
         items += rule_labels(side, y_range[0], _INCHES) if quantity == "growth" else []

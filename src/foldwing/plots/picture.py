@@ -14,7 +14,16 @@ from numpy.typing import NDArray
 Array = NDArray[Any]
 Dash = Literal["solid", "dash", "dot", "dashdot", "longdash"]
 Symbol = Literal[
-    "circle", "circle-open", "square", "square-open", "diamond", "x", "star", "triangle", "ring"
+    "circle",
+    "circle-open",
+    "square",
+    "square-open",
+    "diamond",
+    "x",
+    "star",
+    "triangle",
+    "triangle-down",
+    "ring",
 ]
 Scale = Literal["speed", "diverging", "cycle"]
 Range = tuple[float, float]

@@ -1,15 +1,16 @@
 """The flutter boundary of a section against its torsion frequency, its changes marked."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from foldwing.plots.events import event_marks
-from foldwing.plots.layout import subtitle
+from foldwing.plots.layout import PANEL_INCHES, subtitle
 from foldwing.plots.palette import mode_colors
 from foldwing.plots.picture import Array, Item, Line, Marks, Note, Panel, Picture, Rule, padded
+from foldwing.plots.placing import Box, Paper, along_rule, clearest
 from foldwing.results.flutter_table import FlutterRow, flutter_rows
 from foldwing.results.summary import critical_row, failed_cases, uncertified_cases
 from foldwing.results.units import units_of
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
 _MANY = 30
 """Cases from which on marks are small."""
+
+_WIDTH, _HIGH = 6.77, 1.3
+"""Width of a panel in inches and relative height of the upper one."""
 
 _ROOM = 1.15
 """Height of the panels over the highest of what is always shown."""
@@ -31,33 +35,41 @@ def section_boundary(dataset: "xarray.Dataset") -> Picture | None:
     x_range = padded(dataset["torsion_frequency_ratio"].values, 0.02)
     units, label = units_of(dataset), "torsion frequency ratio ωα/ω₁"
     top, highest = _top_speed(dataset), _top_frequency(dataset)
-    speed = [
-        *_crossings(dataset, None),
+    speed: list[Item] = [
+        *_in_tune(dataset),
         *_curves(dataset, "speed"),
         *_points(dataset, "speed", top),
-        *_changes(dataset, "speed", top),
+        *_changes(dataset, "speed"),
         *_doubts(dataset, top),
     ]
-    frequency = [
-        *_crossings(dataset, highest),
+    frequency: list[Item] = [
+        *_in_tune(dataset),
         *_at_rest(dataset),
         *_curves(dataset, "frequency"),
         *_points(dataset, "frequency", highest),
-        *_changes(dataset, "frequency", None),
+        *_changes(dataset, "frequency"),
     ]
+    tuned = [(at, f"in tune {at:.4g}") for at in _crossings(dataset)]
+    ranges = (0.0, top), (-0.03 * highest, highest)
+    above, below = (
+        Paper(x_range, y_range, _WIDTH, height * PANEL_INCHES)
+        for y_range, height in zip(ranges, (_HIGH, 1.0), strict=True)
+    )
+    speed += _beside(_change_words(dataset), speed, above, "warning")
+    frequency += _beside(tuned, frequency, below, "muted")
     return Picture(
         "section-boundary",
         "The airspeeds at which the section becomes unstable",
         f"{subtitle(dataset)}. Lines: flutter and divergence, followed through the torsion "
         "frequency. Dotted upright: pitch and a plunge mode, each alone, are in tune at rest.",
         [
-            Panel(label, units.speed_label, speed, x_range, (0.0, top), height=1.3),
+            Panel(label, units.speed_label, speed, x_range, ranges[0], height=_HIGH),
             Panel(
                 label,
                 f"flutter {units.frequency_label}",
                 frequency,
                 x_range,
-                (-0.03 * highest, highest),
+                ranges[1],
             ),
         ],
     )
@@ -83,24 +95,32 @@ def _lowest(dataset: "xarray.Dataset") -> list[FlutterRow]:
     return [row for row in lowest if row is not None]
 
 
-def _crossings(dataset: "xarray.Dataset", top: float | None) -> Iterator[Item]:
-    """Mark where pitch alone has the frequency of a plunge mode alone; names at ``top``."""
+def _crossings(dataset: "xarray.Dataset") -> list[float]:
+    """Return where pitch alone has the frequency of a plunge mode alone."""
     low, high = padded(dataset["torsion_frequency_ratio"].values, 0.02)
-    shown = [at for at in dataset["crossing_torsion_ratio"].values.tolist() if low < at < high]
-    for line, at in enumerate(shown):
-        yield Rule(at, "x", "muted", "dot", 1.4)
-        if top is not None:
-            yield _beside(dataset, (at, top), line, f"in tune {at:.4g}", "muted")
+    return [at for at in dataset["crossing_torsion_ratio"].values.tolist() if low < at < high]
+
+
+def _in_tune(dataset: "xarray.Dataset") -> list[Item]:
+    return [Rule(at, "x", "muted", "dot", 1.4) for at in _crossings(dataset)]
 
 
 def _beside(
-    dataset: "xarray.Dataset", point: tuple[float, float], line: int, text: str, color: str
-) -> Note:
-    """Return a text below the top of a panel, beside a rule, each on a line of its own."""
-    low, high = padded(dataset["torsion_frequency_ratio"].values, 0.02)
-    right = point[0] - low > 0.7 * (high - low)
-    anchor: Literal["left", "right"] = "right" if right else "left"
-    return Note(*point, text, color, anchor, "top", -5 if right else 5, -4 - 14 * line, bold=True)
+    texts: Sequence[tuple[float, str]], items: Sequence[Item], paper: Paper, color: str
+) -> list[Note]:
+    """Return texts beside the rules they belong to, as high as they cover nothing."""
+    lines = [paper.along(item.x, item.y) for item in items if isinstance(item, Line)]
+    marks = [paper.rims(item.x, item.y) for item in items if isinstance(item, Marks)]
+    points = np.concatenate([np.empty((0, 2)), *lines, *marks])
+    taken: list[Box] = []
+    notes = []
+    for at, text in texts:
+        boxes = along_rule(float(paper.inches(np.array(at), np.zeros(()))[0]), text, paper)
+        left, bottom, right, top = boxes[clearest(boxes, points, taken, paper)]
+        taken.append((left, bottom, right, top))
+        x, y = paper.values((left, (bottom + top) / 2.0))
+        notes.append(Note(x, y, text, color, "left", bold=True))
+    return notes
 
 
 def _at_rest(dataset: "xarray.Dataset") -> Iterator[Item]:
@@ -139,8 +159,17 @@ def _points(dataset: "xarray.Dataset", quantity: str, top: float) -> Iterator[It
         yield replace(marks, size=4.0) if many else marks
 
 
-def _changes(dataset: "xarray.Dataset", quantity: str, top: float | None) -> Iterator[Item]:
-    """Mark where the lowest onset goes over to another curve; names at ``top``."""
+def _change_words(dataset: "xarray.Dataset") -> list[tuple[float, str]]:
+    """Return where the lowest onset goes over to another curve, and how."""
+    if "change" not in dataset.sizes:
+        return []
+    at = dataset["change_torsion_ratio"].values.tolist()
+    kinds = dataset["change_kind"].values.tolist()
+    return [(x, f"{kind} {x:.5g}") for x, kind in zip(at, kinds, strict=True)]
+
+
+def _changes(dataset: "xarray.Dataset", quantity: str) -> Iterator[Item]:
+    """Mark where the lowest onset goes over to another curve."""
     for change in range(dataset.sizes.get("change", 0)):
         at = float(dataset["change_torsion_ratio"][change])
         ends = dataset[f"change_{quantity}"].values[change]
@@ -149,9 +178,6 @@ def _changes(dataset: "xarray.Dataset", quantity: str, top: float | None) -> Ite
             both: Array = np.array([at, at])
             yield Line(both, ends, "warning", width=2.4, name="change of the lowest onset")
             yield Marks(both, ends, "ring", "warning", "the lowest onset changes", 10.0)
-        if top is not None:
-            text = f"{dataset['change_kind'].values[change]} {at:.5g}"
-            yield _beside(dataset, (at, top), change, text, "warning")
 
 
 def _doubts(dataset: "xarray.Dataset", top: float) -> Iterator[Item]:

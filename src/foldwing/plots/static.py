@@ -62,6 +62,7 @@ _MARKERS = {
     "x": "x",
     "star": "*",
     "triangle": "^",
+    "triangle-down": "v",
     "ring": "o",
 }
 
@@ -142,8 +143,19 @@ def _fill(axes: Axes, panel: Panel, colors: Colors, last: bool) -> None:
         axes.set_ylim(panel.y_range)
     if panel.equal:
         axes.set_aspect("equal", adjustable="datalim")
+    _show_whole_marks(axes)
     _set_ticks(axes, panel)
     _add_scale(axes, panel, colors)
+
+
+def _show_whole_marks(axes: Axes) -> None:
+    """Let the marks at the edge of a panel stand beyond it."""
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    for line in axes.lines:
+        x, y = np.asarray(line.get_xdata(), float), np.asarray(line.get_ydata(), float)
+        within = (x >= left) & (x <= right) & (y >= bottom) & (y <= top)
+        if line.get_linestyle() == "None" and within.all():
+            line.set_clip_on(False)
 
 
 def _set_ticks(axes: Axes, panel: Panel) -> None:

@@ -95,8 +95,10 @@ def trim_table(dataset: "xarray.Dataset") -> Table:
     at = shown_speeds(dataset)
     rows = []
     for index, name in enumerate(dataset["surface"].values.tolist()):
-        values = (f"{coefficient[i, index] + 0.0:.3f}" for i in at)
-        rows.append((name, f"{share[index]:.1%}", f"{lift[index]:.3f}", *values))
+        values = (_three_decimals(float(coefficient[i, index])) for i in at)
+        rows.append(
+            (name, _percent(float(share[index])), _three_decimals(float(lift[index])), *values)
+        )
     return Table(("surface", "Share", "Lift N", *(f"CL {_speed(dataset, i)}" for i in at)), rows)
 
 
@@ -128,6 +130,15 @@ def _exact(dataset: "xarray.Dataset", name: str) -> Any:
     """Return lifts of the first case, those within round-off of the weight as zero."""
     values, share = dataset[name].values[0], dataset["lift_share"].values[0]
     return np.where(np.abs(share) < _ROUND_OFF, 0.0, values)
+
+
+def _three_decimals(value: float) -> str:
+    """Return a number without the sign that rounding leaves on zero."""
+    return f"{round(value, 3) + 0.0:.3f}"
+
+
+def _percent(share: float) -> str:
+    return f"{round(share, 3) + 0.0:.1%}"
 
 
 def _speed(dataset: "xarray.Dataset", index: int) -> str:
