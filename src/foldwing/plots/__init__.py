@@ -20,6 +20,7 @@ A picture is described once (`picture`) and drawn by two renderers.
 `catalogue`                 which of these a dataset has
 `layout`, `palette`         what they share: labels, ranges, colours by role
 `branches`, `bodies`        lines against airspeed; centres of mass
+`placing`                   where a text covers least
 `level_flight`              where an aircraft cannot fly level
 `events`                    how flutter points look, the same everywhere
 `static`, `static_scenes`   matplotlib: PNG and SVG
