@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 _MODES = ("phugoid", "short period", "third oscillation")
 _SYMBOLS: tuple[Symbol, ...] = ("circle", "ring", "diamond", "triangle", "x", "star")
-_SIZES = (6.0, 11.0, 7.0, 7.5, 8.0, 7.0)
-"""Of the symbols in points, so that one shows where it lies on another."""
+_SIZES = (10.0, 14.0, 6.0, 5.5, 5.0, 5.0)
+"""Of the symbols in points: later ones are smaller, or rings, and show on those before."""
 _DASHES: tuple[Dash, ...] = ("solid", "dash", "dot")
 _MOST_MARKS = 30
 """Airspeeds up to which each is marked."""
