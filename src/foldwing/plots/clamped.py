@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     import xarray
 
 _LABEL = "airspeed (m/s)"
+_UNSTABLE = "In flight it is statically unstable: divergence at every airspeed"
 _INCHES = 2.7
 """Width of a panel."""
 _SAME = 0.002
@@ -78,9 +79,7 @@ def beside_clamped(dataset: "xarray.Dataset") -> Picture | None:
     ]
     return Picture(
         "aircraft-beside-clamped",
-        "In flight it is statically unstable: divergence at every airspeed"
-        if unstable
-        else _story(*events),
+        _UNSTABLE if unstable else _story(*events),
         subtitle(dataset, fold_text(dataset, 0)) + ". Left the wing with its root clamped, right "
         "the aircraft: the same axes, and the same mode in the same colour. Above zero (shaded) a "
         f"motion grows. Modes that stay above {top:.3g} Hz are not shown."

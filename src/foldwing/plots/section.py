@@ -64,13 +64,7 @@ def section_boundary(dataset: "xarray.Dataset") -> Picture | None:
         "frequency. Dotted upright: pitch and a plunge mode, each alone, are in tune at rest.",
         [
             Panel(label, units.speed_label, speed, x_range, ranges[0], height=_HIGH),
-            Panel(
-                label,
-                f"flutter {units.frequency_label}",
-                frequency,
-                x_range,
-                ranges[1],
-            ),
+            Panel(label, f"flutter {units.frequency_label}", frequency, x_range, ranges[1]),
         ],
     )
 
