@@ -32,6 +32,8 @@ from foldwing.model.record import Record
 MOST_MODES = 60
 """Largest number of modes of one kind: beyond it beam theory has long lost its meaning."""
 
+BEYOND_ROUND_OFF = 1.0 + 1e-9
+"""Factor by which an inertia must exceed that of all mass on one line, to count as greater."""
 
 MID_CHORD = 0.5
 """Fraction of the chord where elastic axis and mass centre lie unless given."""
@@ -78,7 +80,7 @@ class Segment(Record):
     def _inertia_is_possible(self) -> Self:
         offset = self.mass_offset
         least = self.mass_per_span * offset * offset
-        if self.inertia_per_span <= least:
+        if self.inertia_per_span < least * BEYOND_ROUND_OFF:
             limit = f"must be greater than mass_per_span times mass offset squared, {least:g} kg*m"
             remedy = "Give the inertia about the elastic axis, or move mass_centre towards it."
             raise fault(("inertia_per_span",), self.inertia_per_span, limit, remedy)

@@ -6,7 +6,7 @@ from typing import Annotated, Self
 from pydantic import model_validator
 
 from foldwing.model.faults import as_input_error, fault
-from foldwing.model.parts import Analysis
+from foldwing.model.parts import BEYOND_ROUND_OFF, Analysis
 from foldwing.model.quantities import Bounds, Frequency, Length, Quantity, Ratio
 from foldwing.model.record import Record
 
@@ -71,7 +71,7 @@ class TypicalSection(Record):
             remedy = "It is measured from the elastic axis, aft positive."
             raise fault(("mass_offset",), self.mass_offset, limit, remedy)
         least = self.mass_offset**2 * (1.0 + (self.second_mass_ratio or 0.0))
-        if self.inertia_ratio <= least:
+        if self.inertia_ratio < least * BEYOND_ROUND_OFF:
             limit = (
                 f"must be greater than mass_offset^2 times all mass over the airfoil's, {least:g}"
             )

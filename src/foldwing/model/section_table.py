@@ -6,7 +6,7 @@ from typing import Self
 from pydantic import model_validator
 
 from foldwing.model.faults import fault
-from foldwing.model.parts import MID_CHORD, Air, Analysis
+from foldwing.model.parts import BEYOND_ROUND_OFF, MID_CHORD, Air, Analysis
 from foldwing.model.quantities import (
     ChordFraction,
     Frequency,
@@ -114,7 +114,7 @@ class SectionTable(Record):
         assert self.mass_per_span is not None and self.inertia_per_span is not None
         mass = self.mass_per_span + (self.second_mass_per_span or 0.0)
         least = mass * (self._mass_offset * self._half_chord) ** 2
-        if self.inertia_per_span <= least:
+        if self.inertia_per_span < least * BEYOND_ROUND_OFF:
             limit = (
                 f"must be greater than all mass per span times mass offset squared, {least:g} kg*m"
             )
