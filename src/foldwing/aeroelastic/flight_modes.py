@@ -19,11 +19,9 @@ from foldwing.aeroelastic.system import AeroelasticSystem
 from foldwing.maths.arrays import Complex, Indices, Real
 from foldwing.stability.flutter import FlutterAnalysis
 from foldwing.stability.newton import Roots, polish_roots
-from foldwing.stability.status import BODY_FREEDOM, FlutterPoint
+from foldwing.stability.status import BODY_FREEDOM, PHUGOID, SHORT_PERIOD, FlutterPoint
 from foldwing.stability.tracking import branches_at, record
 from foldwing.structure.modes import AIRCRAFT_MOTIONS
-
-PHUGOID, SHORT_PERIOD = "phugoid", "short period"
 
 _Guess = tuple[float, complex]
 """Airspeed in m/s and where a root may be there, in rad/s."""

@@ -73,7 +73,7 @@ def _flown(request: FlightRequest, text: str) -> _Flown:
             raise tables.missing("flight")
         wing = request.aircraft_wing(text)
         folds = request.one_case(wing, "flight")
-        return _Flown(airframe_of(wing, folds, _speed(request)), wing, folds)
+        return _Flown(airframe_of(wing, folds, _speed(request, wing)), wing, folds)
     others = {
         "--fold": request.fold,
         "--fold-of": request.fold_of,
@@ -88,11 +88,10 @@ def _flown(request: FlightRequest, text: str) -> _Flown:
     return _Flown(model, wing_of(model) if isinstance(model, Airframe) else None, ())
 
 
-def _speed(request: FlightRequest) -> float | None:
+def _speed(request: FlightRequest, wing: Wing) -> float | None:
     """Return the airspeed asked for; the first of a range where there is no other."""
     if request.speed is not None or request.speeds is None:
         return request.speed
-    wing = request.aircraft_wing(model_text(request.model))
     if wing.aircraft is not None and wing.aircraft.cruise_speed is not None:
         return None
     from foldwing.studies.grid import parse_speeds

@@ -17,6 +17,7 @@ _OF_WINGS = ("material", "point_mass", "lattice")
 _OF_SECTIONS = {"damping", "damping_threshold"}
 """What of [analysis] a typical section has."""
 
+_BODIES = ("fuselage", "tail")
 _EXAMPLES = {"span": '"14 cm"', "chord": '"5 cm"', "thickness": '"1/16 in"', "material": '"sheet"'}
 
 
@@ -72,9 +73,6 @@ def _aircraft(table: AircraftTable, wing: Wing) -> Aircraft:
     common = {key: getattr(table, key) for key in Aircraft.model_fields if key not in _BODIES}
     with as_input_error(("aircraft",)):
         return Aircraft.model_validate({**common, "fuselage": fuselage, "tail": tail})
-
-
-_BODIES = ("fuselage", "tail")
 
 
 def _tail_place(table: AircraftTable, wing: Wing) -> float:

@@ -6,6 +6,7 @@ import numpy as np
 
 from foldwing.results.cases import fold_text
 from foldwing.results.flutter_table import flutter_rows
+from foldwing.stability.status import SHORT_PERIOD
 
 if TYPE_CHECKING:
     import xarray
@@ -62,7 +63,7 @@ def short_period(dataset: "xarray.Dataset") -> str:
     rows = [
         row
         for row in flutter_rows(dataset)
-        if row.motion == "short period" and row.kind == "flutter" and row.event == "onset"
+        if row.motion == SHORT_PERIOD and row.kind == "flutter" and row.event == "onset"
     ]
     if not rows:
         return ""

@@ -11,12 +11,12 @@ from foldwing.results.flutter_table import FlutterRow
 from foldwing.results.schema import fold_angle_names
 from foldwing.results.steady_table import Table
 from foldwing.results.writing import write_table
-from foldwing.stability.status import ELASTIC
+from foldwing.stability.status import ELASTIC, PHUGOID, SHORT_PERIOD
 
 if TYPE_CHECKING:
     import xarray
 
-MOTIONS = ("phugoid", "short period")
+MOTIONS = (PHUGOID, SHORT_PERIOD)
 """Oscillations of an aircraft as a whole, the slower one first."""
 
 SHOWN_SPEEDS = 5

@@ -25,6 +25,9 @@ from foldwing.stability.tracking import (
     track,
 )
 
+OVERDAMPED = 0.02
+"""Ratio of Im to modulus below which a motion of a whole aircraft no longer oscillates."""
+
 BESIDE = 1e-3
 """Relative change of p and U at which a pair just born is looked for."""
 
@@ -139,11 +142,10 @@ def root_loci(
     further : Further, optional
     """
     real_axis = real_axis_path(problem, float(speeds[-1]), sweep.region.edge)
-    lowest = 0.0 if further is None else further.beginning.until
-    if further is None:
-        loci = track(problem, speeds)
-    else:
-        loci = track(problem, speeds, further.beginning)
+    beginning = None if further is None else further.beginning
+    lowest = 0.0 if beginning is None else beginning.until
+    loci = track(problem, speeds, beginning)
+    if further is not None:
         loci = _with_further(problem, loci, further)
     loci = _with_born_pairs(problem, loci, sweep, real_axis)
     real, residual = _real_columns(problem, real_axis, speeds, lowest)
@@ -158,10 +160,6 @@ def root_loci(
         mode=np.concatenate([loci.mode, np.full(real.shape[1], -1)]),
         certified=_certified(problem, speeds, values, sweep, lowest),
     )
-
-
-OVERDAMPED = 0.02
-"""Ratio of Im to modulus below which a motion of a whole aircraft no longer oscillates."""
 
 
 def _with_further(problem: AeroelasticProblem, loci: Loci, further: Further) -> Loci:

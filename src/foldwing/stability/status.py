@@ -9,6 +9,8 @@ from foldwing.maths.arrays import Complex, Real
 ELASTIC = "elastic"
 """Motion of a root that is not one of a whole aircraft."""
 
+PHUGOID, SHORT_PERIOD = "phugoid", "short period"
+"""Oscillations of a whole aircraft, the slower one first."""
 
 BODY_FREEDOM = "body freedom"
 """Motion of a root that belongs to a motion of a whole aircraft, but bends the wing as it crosses

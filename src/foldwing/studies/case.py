@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -65,7 +66,7 @@ class Case:
         """Motions of an aircraft as a whole; none of a clamped wing."""
         return () if self.flight is None else self.flight.modes.names
 
-    @property
+    @cached_property
     def unstable_motions(self) -> tuple[str, ...]:
         """Motions of an aircraft beyond the boundary at the lowest airspeed already.
 

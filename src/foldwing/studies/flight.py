@@ -24,6 +24,7 @@ from foldwing.flight.paths import AMPLITUDE, SAMPLES
 from foldwing.flight.rows import model_rows
 from foldwing.maths.arrays import Real
 from foldwing.model import Airframe, FlightModel, StateMatrixModel
+from foldwing.results.flight_summary import PER_ROOT
 from foldwing.results.provenance import NO_SOURCE, Source, provenance
 from foldwing.results.schema import build_dataset
 from foldwing.studies.speeds import LEAST_SPEED, MOST_SPEED
@@ -39,9 +40,6 @@ METHODS = {
 """One line on how the numbers were computed, by form of the model."""
 
 ROOTS = 4
-
-PER_MOTION = ("period", "damping_ratio", "time_to_half", "time_to_double", "cycles")
-"""What is told of a motion besides its eigenvalue."""
 
 Variables = dict[str, Any]
 Answer = dict[str, Any]
@@ -144,7 +142,7 @@ def _row_variables(rows: Sequence[ModeRow], names: list[str]) -> Variables:
     """Return the modes at the airspeed of the model."""
     dims, shape = ("flight_model", "flight_root"), (len(names), ROOTS)
     eigenvalue, modes = np.full(shape, np.nan, complex), np.full(shape, "", object)
-    numbers = {name: np.full(shape, np.nan) for name in PER_MOTION}
+    numbers = {name: np.full(shape, np.nan) for name in PER_ROOT}
     for row in rows:
         at = names.index(row.model_name)
         for place, (mode, value) in enumerate(row.roots):
@@ -268,7 +266,7 @@ def _row(row: ModeRow) -> Answer:
 
 def _motion(motion: Motion) -> Answer:
     value = motion.eigenvalue
-    numbers = {name: getattr(motion, name) for name in PER_MOTION}
+    numbers = {name: getattr(motion, name) for name in PER_ROOT}
     return {"mode": motion.mode, "real": value.real + 0.0, "imag": value.imag + 0.0} | {
         name: number if math.isfinite(number) else None for name, number in numbers.items()
     }

@@ -7,7 +7,7 @@ import numpy as np
 import scipy.linalg
 from pydantic import ValidationError
 
-from foldwing.aeroelastic.rigid import rigid_modes, rigid_roots
+from foldwing.aeroelastic.rigid import rigid_roots, rigid_system
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.errors import InputError
 from foldwing.flight import ModeRow, flight_modes, mode_row
@@ -155,7 +155,7 @@ def _rows(
     wing: Wing, folds: tuple[float, ...], speeds: Sequence[float], name: str
 ) -> list[ModeRow]:
     model = AeroelasticWing(wing)
-    system = model.system(rigid_modes(model.modes(radians(folds))))
+    system = rigid_system(model, model.modes(radians(folds)))
     rows = []
     for speed in dict.fromkeys(speeds):
         roots = [complex(root) for root in rigid_roots(system, float(speed))]
