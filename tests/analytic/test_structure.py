@@ -12,9 +12,9 @@ from scipy.optimize import brentq
 from foldwing.model import Hinge, HingeKind, PointMass, Segment, Wing, read_model
 from foldwing.structure.assembly import Assembly, assemble
 from foldwing.structure.beam import beam_modes
+from foldwing.structure.component import Root
 from foldwing.structure.following import follow_modes
 from foldwing.structure.modes import modal_assurance, natural_modes
-from foldwing.structure.spanwise import Root
 from support.dynamic_stiffness import Beam, FoldedWing
 
 RIGID, FREE = Hinge(kind=HingeKind.RIGID), Hinge(kind=HingeKind.FREE)

@@ -18,7 +18,8 @@ import scipy.optimize
 from scipy.special import kve
 
 from foldwing.structure.beam import BeamModes, beam_modes
-from foldwing.structure.spanwise import JacobiFunctions, Root
+from foldwing.structure.component import Root
+from foldwing.structure.spanwise import JacobiFunctions
 
 MIRROR = np.diag([1.0, -1.0, 1.0])
 

@@ -6,7 +6,11 @@ Module         Responsibility
 faults         wording of errors: where, value, limit, remedy
 quantities     numbers with units and bounds, resolved to SI floats
 record         base of all tables: frozen, unknown keys rejected with a suggestion
+listed         quantities in lists
 material       materials, section properties of a strip of sheet
+sheet          a sheet whose thickness varies
+planform       outline of a segment, its hinge edges and chords
+frames         where the segments of a folded wing are
 parts, wing    the resolved wing that the physics uses
 aircraft       what the wing belongs to: fuselage, tail, trim
 flight         an aircraft in longitudinal flight: the table and its three forms
@@ -27,6 +31,7 @@ from foldwing.model.flight import (
     StateMatrixModel,
     Surface,
 )
+from foldwing.model.frames import Frames, frames
 from foldwing.model.library import (
     ExampleInfo,
     example_names,
@@ -36,6 +41,13 @@ from foldwing.model.library import (
 )
 from foldwing.model.material import Material, strip_inertia, strip_properties
 from foldwing.model.parts import Air, Analysis, Hinge, HingeKind, Lattice, PointMass, Segment
+from foldwing.model.planform import (
+    Planform,
+    flare_of,
+    hinge_direction,
+    rectangle,
+    trapezoid,
+)
 from foldwing.model.reader import (
     model_text,
     parse_file,
@@ -48,6 +60,7 @@ from foldwing.model.reader import (
 )
 from foldwing.model.schema import json_schema
 from foldwing.model.section import TypicalSection
+from foldwing.model.sheet import Sheet
 from foldwing.model.wing import Wing
 
 __all__ = [
@@ -59,13 +72,16 @@ __all__ = [
     "DerivativesTable",
     "ExampleInfo",
     "FlightModel",
+    "Frames",
     "Fuselage",
     "Hinge",
     "HingeKind",
     "Lattice",
     "Material",
+    "Planform",
     "PointMass",
     "Segment",
+    "Sheet",
     "StateMatrixModel",
     "Surface",
     "Tail",
@@ -73,6 +89,9 @@ __all__ = [
     "Wing",
     "example_names",
     "example_text",
+    "flare_of",
+    "frames",
+    "hinge_direction",
     "json_schema",
     "list_examples",
     "measurement_names",
@@ -84,6 +103,8 @@ __all__ = [
     "read_flight",
     "read_model",
     "read_section",
+    "rectangle",
     "strip_inertia",
     "strip_properties",
+    "trapezoid",
 ]

@@ -18,14 +18,13 @@ from foldwing.maths.rotations import rotation_about_x
 from foldwing.model import PointMass, Wing
 from foldwing.structure.beam import beam_modes
 from foldwing.structure.bodies import RigidBody, rigid_bodies
-from foldwing.structure.component import ComponentModes
+from foldwing.structure.component import ComponentModes, Root
 from foldwing.structure.hinges import (
     hinge_points,
     hinge_stiffness,
     relative_slope,
     slope_constraint,
 )
-from foldwing.structure.spanwise import Root
 
 
 @dataclass(frozen=True)

@@ -8,19 +8,12 @@ import numpy as np
 from foldwing.maths.arrays import Real
 from foldwing.maths.quadrature import gauss_rule
 from foldwing.model import Analysis, Segment
-from foldwing.structure.component import SectionMotion
+from foldwing.structure.component import IN_PLANE, TWISTING, Root, SectionMotion
 from foldwing.structure.spanwise import (
-    Root,
     SpanwiseFunctions,
     bending_functions,
     torsion_functions,
 )
-
-IN_PLANE = {Root.CLAMPED: [], Root.CARRIAGE: [0], Root.FREE: [0, 1, 2]}
-"""In-plane rigid motions of a segment, of x and y translation and yaw about its origin."""
-
-_TWISTS = (0, 2)
-"""In-plane motions that the twist of a folded wing drives."""
 
 
 @dataclass(frozen=True)
@@ -99,10 +92,17 @@ class BeamModes:
         _, torsion, in_plane = self._blocks
         M = np.zeros_like(self.mass)
         M[torsion, torsion] = self.mass[torsion, torsion]
-        twists = [in_plane.start + i for i, j in enumerate(self._in_plane) if j in _TWISTS]
+        twists = [in_plane.start + i for i, j in enumerate(self._in_plane) if j in TWISTING]
         x_and_yaw = np.ix_(twists, twists)
         M[x_and_yaw] = self.mass[x_and_yaw]
         return M
+
+    @property
+    def mass_and_centre(self) -> tuple[float, Real]:
+        """Mass in kg, and x and y of its centre in m, shape (2,)."""
+        segment = self.segment
+        centre = np.array([segment.mass_offset, segment.span / 2.0])
+        return segment.mass_per_span * segment.span, centre
 
     @cached_property
     def mass_centre_motion(self) -> Real:

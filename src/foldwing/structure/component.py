@@ -1,8 +1,27 @@
 """The port that every kind of segment model obeys: its component modes."""
 
+from enum import Enum
 from typing import NamedTuple, Protocol
 
 from foldwing.maths.arrays import Real
+
+
+class Root(Enum):
+    """How the inboard edge of a segment may move."""
+
+    CLAMPED = "clamped"
+    """Not at all."""
+    CARRIAGE = "carriage"
+    """With a symmetric aircraft: along x and z and in pitch, but neither sideways nor in roll."""
+    FREE = "free"
+    """In every way; a hinge holds it."""
+
+
+IN_PLANE: dict[Root, list[int]] = {Root.CLAMPED: [], Root.CARRIAGE: [0], Root.FREE: [0, 1, 2]}
+"""In-plane rigid motions of a segment, of x and y translation and yaw about its origin."""
+
+TWISTING = (0, 2)
+"""In-plane motions that the twist of a folded wing drives."""
 
 
 class SectionMotion(NamedTuple):
@@ -32,6 +51,10 @@ class ComponentModes(Protocol):
     @property
     def stiffness(self) -> Real:
         """Stiffness matrix, shape (n, n)."""
+
+    @property
+    def mass_and_centre(self) -> tuple[float, Real]:
+        """Mass in kg, and x and y of its centre in m, shape (2,)."""
 
     @property
     def torsion_mass(self) -> Real:

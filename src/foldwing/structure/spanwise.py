@@ -8,7 +8,6 @@ frequencies converge exponentially with their number.
 """
 
 from dataclasses import dataclass
-from enum import Enum
 from functools import cache
 from typing import Protocol
 
@@ -17,17 +16,7 @@ from numpy.polynomial import Polynomial
 from scipy.special import eval_jacobi
 
 from foldwing.maths.arrays import Indices, Real
-
-
-class Root(Enum):
-    """How the inboard edge of a segment may move."""
-
-    CLAMPED = "clamped"
-    """Not at all."""
-    CARRIAGE = "carriage"
-    """With a symmetric aircraft: along x and z and in pitch, but neither sideways nor in roll."""
-    FREE = "free"
-    """In every way; a hinge holds it."""
+from foldwing.structure.component import Root
 
 
 class SpanwiseFunctions(Protocol):
