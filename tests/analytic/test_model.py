@@ -372,7 +372,7 @@ def test_a_wing_is_frozen():
                 segments=[Segment(**SECTION), Segment(**SECTION | {"chord": 0.2})],
                 hinges=[Hinge(stiffness=1, springs=3, spacing=0.15)],
             ),
-            r"hinges\[0\]\.spacing: 3 springs must fit in the narrower chord, 0.2 m.*0.1 m",
+            r"hinges\[0\]\.spacing: 3 springs must fit in the edge that both share, 0.2 m.*0.1 m",
         ),
     ],
 )

@@ -7,7 +7,7 @@ from foldwing.aerodynamics.influence import Influence
 from foldwing.aerodynamics.lattice import mesh_segments
 from foldwing.aerodynamics.panels import strip_panels
 from foldwing.aerodynamics.steady import at_unit_angle, solve_steady
-from foldwing.aerodynamics.steady_loads import fold_frames, wing_loads, wing_strips
+from foldwing.aerodynamics.steady_loads import wing_loads, wing_strips
 from foldwing.aerodynamics.unsteady import PanelMotion, lattice_model
 from foldwing.aeroelastic.wing import AeroelasticWing
 from foldwing.model import Segment, read_model
@@ -77,7 +77,7 @@ def test_elastic_twist_gives_the_generalized_forces_of_the_modes():
 def test_frames_are_those_of_the_structure():
     folds = tuple(np.radians((40.0, -100.0)))
     modes = AeroelasticWing(wing()).modes(folds)
-    frames = fold_frames(wing(), folds)
+    frames = wing().frames(folds)
     assert np.array(frames.origins) == pytest.approx(np.array(modes.origins), abs=1e-16)
     assert np.array(frames.rotations) == pytest.approx(np.array(modes.rotations), abs=1e-16)
 

@@ -22,6 +22,7 @@ from foldwing.model.schema import (
     FuselageTable,
     HingeTable,
     ModelFile,
+    ModesTable,
     SegmentTable,
     TailTable,
     WingTable,
@@ -167,10 +168,14 @@ def table(name):
     )
 
 
+OF_ONE_SEGMENT = set(SegmentTable.model_fields) - set(WingTable.model_fields)
+
 TABLES = [
     ("material", table("material"), set()),
-    ("wing and wing.segment", SegmentTable, {"hinge"}),
+    ("wing and wing.segment", SegmentTable, OF_ONE_SEGMENT),
+    ("wing.segment alone", SegmentTable, set(SegmentTable.model_fields) - OF_ONE_SEGMENT),
     ("wing.segment.hinge", HingeTable, set()),
+    ("wing.segment.modes", ModesTable, set()),
     ("point_mass", table("point_mass"), set()),
     ("air", table("air"), set()),
     ("analysis", table("analysis"), set()),

@@ -50,7 +50,7 @@ CASES = [
     (SPAN, "spam = 1", f"{FIRST}.spam", 1, "not a known key", "Did you mean span?"),
     ("[air]", "[airs]", "airs", "a table of 1 keys", "not a known key", "Did you mean air?"),
     ("damping =", "dampin =", "analysis.dampin", 0.01, "not a known key", "Did you mean damping?"),
-    ("fold =", "angle =", f"{BEYOND}.angle", 30, "not a known key", "fold, gap, springs, spacing"),
+    ("fold =", "angle =", f"{BEYOND}.angle", 30, "not a known key", "fold, flare, gap, positions"),
     ('title = "two segments"', "[trellis]", "trellis", "a table of 0 keys", "not a known", "Known"),
     # Missing, zero and negative
     (SPAN, "", f"{FIRST}.span", MISSING, "greater than 0 m", "Add span"),
@@ -182,7 +182,7 @@ CASES = [
     (HINGE, "{ springs = 2, stiffness = 1 }", f"{BEYOND}.spacing", MISSING, "2 springs", "Add"),
     (HINGE, "{ spacing = 2, stiffness = 1 }", f"{BEYOND}.springs", MISSING, "spacing", "Add"),
     ("springs = 3", "springs = 0", f"{BEYOND}.springs", 0, "1 to 1000", "for example 1"),
-    ('"15 mm"', "0.026", f"{BEYOND}.spacing", 0.026, "fit in the narrower chord", "0.025 m"),
+    ('"15 mm"', "0.026", f"{BEYOND}.spacing", 0.026, "fit in the edge that both share", "0.025 m"),
     # Point masses
     ("segment = 1", "segment = 3", "point_mass[1].segment", 3, "1 to 2", "from 1 at the root"),
     ("segment = 1", "segment = 0", "point_mass[1].segment", 0, "1 or more", "for example 1"),

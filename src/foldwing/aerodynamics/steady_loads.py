@@ -9,36 +9,10 @@ from foldwing.aerodynamics.lattice import Strips, folded_strips, mesh_segments
 from foldwing.aerodynamics.panels import strip_panels
 from foldwing.aerodynamics.steady import SteadyLattice, at_unit_angle, lift_slope
 from foldwing.maths.arrays import Mask, Real
-from foldwing.maths.rotations import rotation_about_x
-from foldwing.model import Segment, Wing
+from foldwing.model import Frames, Segment, Wing
 
 NO_FORCE = 1e-9
 """Share of the sum of the sizes of all forces below which a centre of pressure means nothing."""
-
-
-@dataclass(frozen=True)
-class Frames:
-    """Where the segments of a folded wing are.
-
-    Attributes
-    ----------
-    origins : tuple of array, shape (3,)
-        Middle of the inboard edge of each segment on the elastic axis, in metres.
-    rotations : tuple of array, shape (3, 3)
-        From the axes of each segment to global axes.
-    """
-
-    origins: tuple[Real, ...]
-    rotations: tuple[Real, ...]
-
-
-def fold_frames(wing: Wing, folds: Sequence[float]) -> Frames:
-    """Return where the segments are at the fold angles psi_2 .. psi_N in radians."""
-    rotations = [rotation_about_x(float(angle)) for angle in np.cumsum([0.0, *folds])]
-    origins = [np.zeros(3)]
-    for segment, A in zip(wing.segments, rotations, strict=True):
-        origins.append(origins[-1] + segment.span * A[:, 1])
-    return Frames(tuple(origins[:-1]), tuple(rotations))
 
 
 @dataclass(frozen=True)
@@ -126,7 +100,7 @@ class WingLoads:
 
 def wing_strips(wing: Wing, folds: Sequence[float]) -> Strips:
     """Return the strips of the lattice at the fold angles psi_2 .. psi_N in radians."""
-    frames = fold_frames(wing, folds)
+    frames = wing.frames(folds)
     return folded_strips(mesh_segments(wing), frames.origins, frames.rotations)
 
 
@@ -144,7 +118,7 @@ def wing_loads(wing: Wing, folds: Sequence[float], alpha: float, speed: float) -
     speed : float
         Airspeed in m/s.
     """
-    frames = fold_frames(wing, folds)
+    frames = wing.frames(folds)
     panels = strip_panels(wing_strips(wing, folds), wing.lattice.chordwise)
     unit = at_unit_angle(panels, wing.lattice.image)
     lattice = unit.scaled(alpha)

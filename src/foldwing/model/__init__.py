@@ -40,7 +40,7 @@ from foldwing.model.library import (
     measurement_names,
 )
 from foldwing.model.material import Material, strip_inertia, strip_properties
-from foldwing.model.parts import Air, Analysis, Hinge, HingeKind, Lattice, PointMass, Segment
+from foldwing.model.parts import Air, Analysis, Hinge, HingeKind, Lattice, PointMass
 from foldwing.model.planform import (
     Planform,
     flare_of,
@@ -60,6 +60,7 @@ from foldwing.model.reader import (
 )
 from foldwing.model.schema import json_schema
 from foldwing.model.section import TypicalSection
+from foldwing.model.segment import Segment, Structure
 from foldwing.model.sheet import Sheet
 from foldwing.model.wing import Wing
 
@@ -83,6 +84,7 @@ __all__ = [
     "Segment",
     "Sheet",
     "StateMatrixModel",
+    "Structure",
     "Surface",
     "Tail",
     "TypicalSection",

@@ -4,7 +4,6 @@ import math
 from typing import Literal
 
 from foldwing.conventions import STANDARD_GRAVITY
-from foldwing.model.parts import MID_CHORD, Segment
 from foldwing.model.quantities import (
     Acceleration,
     Airspeed,
@@ -17,6 +16,7 @@ from foldwing.model.quantities import (
     Position,
 )
 from foldwing.model.record import Record
+from foldwing.model.segment import MID_CHORD, Segment
 
 QUARTER = 0.25
 """Fraction of the chord where the lift of a thin section acts, and from where arms are measured."""

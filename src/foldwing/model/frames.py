@@ -9,6 +9,7 @@ where r is the point of the outboard edge at which the next segment hangs. R_i =
 psi_i) is the same and is what is computed.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,16 +52,16 @@ class Frames:
         return np.asarray(self.origins[segment] + local @ self.rotations[segment].T)
 
 
-def frames(ends: "list[Real]", directions: "list[Real]", folds: "tuple[float, ...]") -> Frames:
+def frames(ends: Sequence[Real], directions: Sequence[Real], folds: Sequence[float]) -> Frames:
     """Return the axes of segments that hang on each other.
 
     Parameters
     ----------
-    ends : list of array, shape (2,)
+    ends : sequence of array, shape (2,)
         Local x and y of the point on which the next segment hangs, of every segment.
-    directions : list of array, shape (2,)
+    directions : sequence of array, shape (2,)
         Local direction h of hinges 2..N.
-    folds : tuple of float
+    folds : sequence of float
         psi_2 .. psi_N in rad.
     """
     origins, rotations, hinges = [np.zeros(3)], [np.eye(3)], []

@@ -71,6 +71,26 @@ class OnePoint(_Listed):
         return {"type": "array", "items": one, "minItems": 2, "maxItems": 2}
 
 
+class OneVector(_Listed):
+    """Three plain numbers or lengths."""
+
+    def parse(self, value: object) -> tuple[float, float, float]:
+        """Return the three components."""
+        limit, remedy = "must be a list of three numbers", "Write for example [0, 0, 1]."
+        row = self._row((), value, limit, remedy)
+        if len(row) != 3:
+            raise fault((), shown(value), limit, remedy)
+        x, y, z = (self._number((i,), entry) for i, entry in enumerate(row))
+        return x, y, z
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """Return the JSON schema: a list of three."""
+        one = self._schema_of_one(handler)
+        return {"type": "array", "items": one, "minItems": 3, "maxItems": 3}
+
+
 class Values(_Listed):
     """A list of quantities, none of them twice."""
 
@@ -123,8 +143,9 @@ class Table(_Listed):
 
 
 _LENGTH = Quantity("a length", "m", '"-7.9 mm"')
-_THICKNESS = Quantity("a thickness", "m", '"1.6 mm"', Bounds(above=0.0))
+_THICKNESS = Quantity("a length", "m", '"1.6 mm" or "1/16 in"', Bounds(above=0.0))
 
 Point = Annotated[tuple[float, float], OnePoint(_LENGTH)]
+Vector = Annotated[tuple[float, float, float], OneVector(Quantity("a number", "", "1"))]
 Positions = Annotated[tuple[float, ...], Values(_LENGTH)]
 Thickness = Annotated[tuple[tuple[float, ...], ...], Table(_THICKNESS)]

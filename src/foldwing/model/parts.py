@@ -1,4 +1,4 @@
-"""The parts a wing is made of, resolved: section properties and SI floats only."""
+"""The parts of a wing besides its segments, resolved: SI floats only."""
 
 import math
 from enum import StrEnum
@@ -6,10 +6,13 @@ from typing import Annotated, Literal, Self
 
 from pydantic import StrictBool, model_validator
 
+from foldwing.maths.arrays import Real
 from foldwing.model.faults import fault
+from foldwing.model.listed import Positions
+from foldwing.model.planform import hinge_direction
 from foldwing.model.quantities import (
     Angle,
-    ChordFraction,
+    Bounds,
     Count,
     Counts,
     DampingRatio,
@@ -17,14 +20,10 @@ from foldwing.model.quantities import (
     Density,
     Distance,
     HingeStiffness,
-    InertiaPerSpan,
-    Length,
-    LiftSlope,
     Mass,
-    MassPerSpan,
     Position,
+    Quantity,
     Relaxation,
-    SectionStiffness,
     WakeLength,
 )
 from foldwing.model.record import Record
@@ -32,79 +31,16 @@ from foldwing.model.record import Record
 MOST_MODES = 60
 """Largest number of modes of one kind: beyond it beam theory has long lost its meaning."""
 
-BEYOND_ROUND_OFF = 1.0 + 1e-9
-"""Factor by which an inertia must exceed that of all mass on one line, to count as greater."""
-
-MID_CHORD = 0.5
-"""Fraction of the chord where elastic axis and mass centre lie unless given."""
+MOST_PLATE_MODES = 200
+"""Largest number of modes of a plate."""
 
 MOST_SPRINGS = 1000
 """Largest number of springs in a hinge."""
 
+MOST_FLARE = math.radians(75.0)
+"""Largest flare of a hinge, rad."""
 
-class Segment(Record):
-    """One uniform flat segment of a wing; every value in SI units.
-
-    Attributes
-    ----------
-    span, chord : float
-        m.
-    bending_stiffness : float
-        EI, N*m^2.
-    torsion_stiffness : float
-        GJ, N*m^2.
-    mass_per_span : float
-        kg/m.
-    inertia_per_span : float
-        Integral of x^2 dm per span about the elastic axis, kg*m.
-    elastic_axis, mass_centre : float
-        Fractions of the chord from the leading edge.
-    lift_slope : float
-        Slope of the section's lift coefficient, 1/rad.
-    thickness : float, optional
-        m; for reports and plate theory.
-    """
-
-    span: Length
-    chord: Length
-    bending_stiffness: SectionStiffness
-    torsion_stiffness: SectionStiffness
-    mass_per_span: MassPerSpan
-    inertia_per_span: InertiaPerSpan
-    elastic_axis: ChordFraction = MID_CHORD
-    mass_centre: ChordFraction = MID_CHORD
-    lift_slope: LiftSlope = 2.0 * math.pi
-    thickness: Length | None = None
-
-    @model_validator(mode="after")
-    def _inertia_is_possible(self) -> Self:
-        offset = self.mass_offset
-        least = self.mass_per_span * offset * offset
-        if self.inertia_per_span < least * BEYOND_ROUND_OFF:
-            limit = f"must be greater than mass_per_span times mass offset squared, {least:g} kg*m"
-            remedy = "Give the inertia about the elastic axis, or move mass_centre towards it."
-            raise fault(("inertia_per_span",), self.inertia_per_span, limit, remedy)
-        return self
-
-    @property
-    def half_chord(self) -> float:
-        """Half chord b, m."""
-        return self.chord / 2.0
-
-    @property
-    def axis_offset(self) -> float:
-        """Distance a of the elastic axis aft of mid-chord, in half chords."""
-        return 2.0 * self.elastic_axis - 1.0
-
-    @property
-    def mass_offset(self) -> float:
-        """Distance of the mass centre aft of the elastic axis, m."""
-        return (self.mass_centre - self.elastic_axis) * self.chord
-
-    @property
-    def area(self) -> float:
-        """Planform area, m^2."""
-        return self.span * self.chord
+FLARE = Quantity("an angle", "rad", "15", Bounds(-MOST_FLARE, None, MOST_FLARE), "degrees")
 
 
 class HingeKind(StrEnum):
@@ -131,6 +67,12 @@ class Hinge(Record):
     fold : float
         Fold angle psi in rad, positive folding the outboard part up. Given in degrees, or as text
         with a unit.
+    flare : float
+        Angle of the hinge line in rad, positive when its front end lies outboard of its rear end:
+        folding up then lowers the incidence. Given in degrees, or as text with a unit.
+    positions : tuple of float
+        Where the springs are along the hinge line, in m aft of the point where the outboard
+        segment hangs; empty for springs that are spread evenly.
     gap : float
         Width in m of the opening between the two segments, half of it on either side of the hinge
         line. The structure has none; the vortex lattice leaves it open.
@@ -141,6 +83,8 @@ class Hinge(Record):
     springs: Annotated[int, Count(1, MOST_SPRINGS)] = 1
     spacing: Distance = 0.0
     fold: Angle = 0.0
+    flare: Annotated[float, FLARE] = 0.0
+    positions: Positions | tuple[()] = ()
     gap: Distance = 0.0
 
     @model_validator(mode="after")
@@ -153,7 +97,15 @@ class Hinge(Record):
             remedy = "Remove the stiffness, or make it a spring."
             limit = f"must be absent from a {self.kind} hinge"
             raise fault(("stiffness",), self.stiffness, limit, remedy)
+        if self.positions and len(self.positions) != self.springs:
+            limit = f"{self.springs} springs need as many positions"
+            raise fault(("positions",), len(self.positions), limit, "Give one for each spring.")
         return self
+
+    @property
+    def direction(self) -> Real:
+        """Unit vector h along the flat hinge line, aft, shape (2,)."""
+        return hinge_direction(self.flare)
 
 
 class PointMass(Record):
@@ -197,6 +149,8 @@ class Analysis(Record):
     bending_modes, torsion_modes : int
         Modes per segment. Segment 1 has so many clamped modes; in every other segment one of each
         is a rigid mode (roll, pitch), and its translations and yaw are not counted.
+    plate_modes : int
+        Modes of each plate, its three rigid ones included where it is free.
     system_modes : int
         Modes of the joined wing that are kept.
     basis : str
@@ -210,6 +164,7 @@ class Analysis(Record):
 
     bending_modes: Annotated[int, Count(2, MOST_MODES)] = 10
     torsion_modes: Annotated[int, Count(1, MOST_MODES)] = 10
+    plate_modes: Annotated[int, Count(4, MOST_PLATE_MODES)] = 10
     system_modes: Annotated[int, Count(1, MOST_MODES)] = 12
     basis: Literal["free-free", "converged"] = "free-free"
     damping: DampingRatio = 0.0

@@ -4,7 +4,7 @@ Local axes are those of the flat wing, x aft and y outboard; their origin is the
 inboard edge at which the segment hangs on its neighbour.
 """
 
-from functools import cached_property
+from functools import lru_cache
 from typing import Self
 
 import numpy as np
@@ -38,10 +38,13 @@ class Planform(Record):
     tip : (int, int)
         Positions among the corners, from 0, of the leading and the trailing end of the outboard
         edge; equal where the segment ends in a point.
+    end : (float, float), optional
+        Point of the outboard edge on which the next segment hangs; its middle unless given.
     """
 
     corners: tuple[Point, ...]
     tip: tuple[int, int]
+    end: Point | None = None
 
     @model_validator(mode="after")
     def _is_an_outline(self) -> Self:
@@ -75,7 +78,7 @@ class Planform(Record):
             limit = f"the outline must not cross itself, and its sides {first} and {other} meet"
             raise fault(("corners",), f"a list of {len(self.corners)}", limit, _ORDER)
 
-    @cached_property
+    @property
     def array(self) -> Real:
         """Corners, shape (k, 2)."""
         return np.array(self.corners, float)
@@ -119,7 +122,19 @@ class Planform(Record):
         """Whether the segment ends in a point instead of an edge."""
         return self.tip[0] == self.tip[1]
 
-    @cached_property
+    @property
+    def outboard_point(self) -> Real:
+        """Point of the outboard edge on which the next segment hangs, shape (2,)."""
+        return self.outboard_edge.mean(axis=0) if self.end is None else np.array(self.end)
+
+    @property
+    def centroid(self) -> tuple[float, float]:
+        """X and y of the centroid of the area in m."""
+        a, b = self.array, np.roll(self.array, -1, axis=0)
+        x, y = ((a + b) * _cross(a, b)[:, None]).sum(axis=0) / (6.0 * self._signed_area)
+        return float(x), float(y)
+
+    @property
     def is_rectangle(self) -> bool:
         """Whether the outline is a rectangle along the stream that starts at y = 0."""
         if len(self.corners) != 4 or self.tip != (1, 2):
@@ -128,13 +143,18 @@ class Planform(Record):
         gaps = (a[0] - b[0], c[0] - d[0], a[1], c[1], b[1] - d[1])
         return all(abs(gap) <= ROUND_OFF * self.size for gap in gaps)
 
-    @cached_property
+    @property
+    def extent(self) -> tuple[float, float]:
+        """Smallest and largest y in m."""
+        return float(self.breaks[0]), float(self.breaks[-1])
+
+    @property
     def breaks(self) -> Real:
         """The y of all corners, ascending, each once: chords are linear in y between them."""
         y = np.sort(self.array[:, 1])
         return np.asarray(y[np.append(True, np.diff(y) > ROUND_OFF * self.size)])
 
-    @cached_property
+    @property
     def has_one_chord(self) -> bool:
         """Whether every line along the stream crosses the outline once in and once out."""
         middle = (self.breaks[1:] + self.breaks[:-1]) / 2.0
@@ -187,6 +207,7 @@ class Planform(Record):
         return np.clip((x - front) / chord, 0.0, 1.0), (inside - low) / (high - low)
 
 
+@lru_cache(maxsize=256)
 def rectangle(span: float, chord: float, elastic_axis: float) -> Planform:
     """Return a rectangle whose elastic axis, a fraction of the chord, is the y axis."""
     return trapezoid((chord, chord), span, elastic_axis)
@@ -223,7 +244,7 @@ def trapezoid(
         for through, flare in edges
     )
     corners = (inboard[0], outboard[0], outboard[1], inboard[1])
-    return Planform(corners=corners, tip=(1, 2))
+    return Planform(corners=corners, tip=(1, 2), end=(aft, span))
 
 
 def hinge_direction(flare: float) -> Real:

@@ -34,7 +34,13 @@ def read_model(source: str | Path) -> Wing:
     InputError
         When the model cannot be read or used; it names the field.
     """
-    return parse_model(model_text(source), str(source))
+    return parse_model(model_text(source), str(source), folder=folder_of(source))
+
+
+def folder_of(source: str | Path) -> Path | None:
+    """Return where the files that a model names are found; None beside a shipped example."""
+    shipped = isinstance(source, str) and source in example_names()
+    return None if shipped else Path(source).parent
 
 
 def model_text(source: str | Path) -> str:
@@ -59,7 +65,13 @@ def model_text(source: str | Path) -> str:
         raise InputError("MODEL", _named(source), limit, remedy) from error
 
 
-def parse_model(text: str, source: str = "MODEL") -> Wing:
+def parse_model(
+    text: str,
+    source: str = "MODEL",
+    *,
+    structure: str | None = None,
+    folder: Path | None = None,
+) -> Wing:
     """Return the wing described by TOML text.
 
     Parameters
@@ -68,13 +80,18 @@ def parse_model(text: str, source: str = "MODEL") -> Wing:
         The model.
     source : str
         Name of the text for error messages.
+    structure : str, optional
+        "beam" or "plate" for every segment that does not import its modes, whatever the model says.
+    folder : Path, optional
+        Where the files that the model names are found; the current one by default.
 
     Raises
     ------
     InputError
         When the model cannot be used, or has no wing; it names the field.
     """
-    return resolved(parse_file(text, source))
+    model = parse_file(text, source)
+    return resolved(model if structure is None else model.built_of(structure), folder)
 
 
 def read_flight(source: str | Path) -> FlightModel:

@@ -1,28 +1,32 @@
 """From the tables of a model file to a wing or a typical section: all numbers looked up."""
 
-from dataclasses import dataclass
+from pathlib import Path
 
 from foldwing.errors import InputError
 from foldwing.model.aircraft import QUARTER, Aircraft, quarter_chord
-from foldwing.model.faults import as_input_error, file_path, shown
-from foldwing.model.material import Material, strip_inertia, strip_properties
-from foldwing.model.parts import MID_CHORD, Hinge, HingeKind, Segment
-from foldwing.model.record import suggest
-from foldwing.model.schema import AircraftTable, HingeTable, ModelFile, SegmentKeys, WingTable
+from foldwing.model.faults import as_input_error
+from foldwing.model.outlines import outlines
+from foldwing.model.parts import Hinge, HingeKind
+from foldwing.model.resolve_segment import resolved_segment
+from foldwing.model.schema import AircraftTable, HingeTable, ModelFile
 from foldwing.model.section import TypicalSection
 from foldwing.model.wing import Wing, in_file
 
-_SHEET = ("bending_stiffness", "torsion_stiffness", "mass_per_span", "inertia_per_span")
 _OF_WINGS = ("material", "point_mass", "lattice")
 _OF_SECTIONS = {"damping", "damping_threshold"}
 """What of [analysis] a typical section has."""
 
 _BODIES = ("fuselage", "tail")
-_EXAMPLES = {"span": '"14 cm"', "chord": '"5 cm"', "thickness": '"1/16 in"', "material": '"sheet"'}
 
 
-def resolved(model: ModelFile) -> Wing:
+def resolved(model: ModelFile, folder: Path | None = None) -> Wing:
     """Return the wing that a model file describes.
+
+    Parameters
+    ----------
+    model : ModelFile
+    folder : Path, optional
+        Where files that it names are found; the current one by default.
 
     Raises
     ------
@@ -32,9 +36,13 @@ def resolved(model: ModelFile) -> Wing:
     wing = model.wing
     if wing is None:
         raise model.missing("wing")
-    segments = tuple(_segment(model, wing, index) for index in range(len(wing.segment)))
+    shapes = outlines(wing)
+    segments = tuple(
+        resolved_segment(model, wing, index, shape, folder)
+        for index, shape in enumerate(shapes.planforms)
+    )
     hinges = tuple(
-        _hinge(table.hinge, index)
+        _hinge(table.hinge, index, shapes.flares[index - 1])
         for index, table in enumerate(wing.segment)
         if table.hinge is not None
     )
@@ -131,85 +139,19 @@ def _check_no_wing_tables(model: ModelFile) -> None:
         raise InputError(unused[0], "a value", limit, f"Remove {unused[0]}.")
 
 
-@dataclass(frozen=True)
-class _Section:
-    """What the file says of one segment, by itself or in the wing table."""
-
-    index: int
-    keys: SegmentKeys
-    common: SegmentKeys
-
-    def value(self, key: str) -> object:
-        own = getattr(self.keys, key)
-        return getattr(self.common, key) if own is None else own
-
-    def length(self, key: str) -> float:
-        value = self.value(key)
-        if not isinstance(value, float):
-            raise self.missing(key, "must be a length (m), greater than 0 m")
-        return value
-
-    def missing(self, key: str, limit: str) -> InputError:
-        example = _EXAMPLES.get(key)
-        remedy = f"Add {key} = {example}" if example else f"Add {key}"
-        return InputError(self.path(key), None, limit, f"{remedy} here, or in [wing] for all.")
-
-    def path(self, key: str) -> str:
-        own = getattr(self.keys, key) is not None or getattr(self.common, key) is None
-        return file_path(("wing", "segment", self.index, key) if own else ("wing", key))
-
-
-def _segment(model: ModelFile, wing: WingTable, index: int) -> Segment:
-    section = _Section(index, wing.segment[index], wing)
-    given = {key: section.value(key) for key in Segment.model_fields}
-    values = {key: value for key, value in given.items() if value is not None}
-    values |= {"span": section.length("span"), "chord": section.length("chord")}
-    material = _material(model, section)
-    if any(key not in values for key in _SHEET):
-        values = _sheet_values(section, material, values) | values
-    with as_input_error(("wing", "segment", index)):
-        return Segment.model_validate(values)
-
-
-def _material(model: ModelFile, section: _Section) -> Material | None:
-    name = section.value("material")
-    if name is None:
-        return None
-    material = model.material.get(str(name))
-    if material is None:
-        limit = "must be the name of a [material.NAME] table"
-        remedy = suggest(name, model.material)
-        raise InputError(section.path("material"), shown(name), limit, remedy)
-    return material
-
-
-def _sheet_values(
-    section: _Section, material: Material | None, values: dict[str, object]
-) -> dict[str, object]:
-    """Return the section properties of a strip of sheet of the segment's material."""
-    absent = [key for key in _SHEET if key not in values]
-    thickness = section.value("thickness")
-    if material is None and thickness is None:
-        raise section.missing(absent[0], "must be given, or else a material and a thickness")
-    if material is None:
-        raise section.missing("material", f"is needed for {', '.join(absent)}")
-    if not isinstance(thickness, float):
-        raise section.missing("thickness", f"is needed for {', '.join(absent)}")
-    chord = section.length("chord")
-    strip = strip_properties(material, chord, thickness)
-    mass = values.get("mass_per_span", strip["mass_per_span"])
-    axis, centre = (values.get(key, MID_CHORD) for key in ("elastic_axis", "mass_centre"))
-    assert isinstance(mass, float) and isinstance(axis, float) and isinstance(centre, float)
-    return {**strip, "inertia_per_span": strip_inertia(mass, chord, (centre - axis) * chord)}
-
-
-def _hinge(table: HingeTable, index: int) -> Hinge:
+def _hinge(table: HingeTable, index: int, flare: float) -> Hinge:
     """Return the hinge of the segment at `index`; its stiffness is that of all springs."""
     stiffness = table.stiffness or 0.0
-    springs = table.springs or 1
+    positions = table.positions or ()
+    springs = table.springs or len(positions) or 1
     kind = HingeKind.SPRING if table.form in ("springs", "stiffness") else HingeKind(table.form)
+    spacing = table.spacing or 0.0
     with as_input_error(("wing", "segment", index, "hinge")):
         hinge = Hinge(
-            kind=kind, stiffness=springs * stiffness, springs=springs, spacing=table.spacing or 0.0
+            kind=kind,
+            stiffness=springs * stiffness,
+            springs=springs,
+            spacing=spacing,
+            positions=positions,
         )
-    return hinge.model_copy(update={"fold": table.fold, "gap": table.gap})
+    return hinge.model_copy(update={"fold": table.fold, "flare": flare, "gap": table.gap})

@@ -10,12 +10,16 @@ from foldwing.errors import InputError
 from foldwing.model.aircraft import TailTheory, Trim, WingTheory
 from foldwing.model.faults import fault
 from foldwing.model.flight import FlightTable
+from foldwing.model.listed import Point, Positions, Thickness, Vector
 from foldwing.model.material import Material
-from foldwing.model.parts import MID_CHORD, MOST_SPRINGS, Air, Analysis, Lattice, PointMass
+from foldwing.model.modes_file import Smoothing
+from foldwing.model.parts import FLARE, MOST_SPRINGS, Air, Analysis, Lattice, PointMass
+from foldwing.model.planform import MOST as MOST_CORNERS
 from foldwing.model.quantities import (
     Acceleration,
     Airspeed,
     Angle,
+    Bounds,
     ChordFraction,
     Count,
     Distance,
@@ -28,11 +32,19 @@ from foldwing.model.quantities import (
     MassPerSpan,
     PitchInertia,
     Position,
+    Quantity,
     SectionStiffness,
     TailArm,
 )
 from foldwing.model.record import Record
 from foldwing.model.section_table import SectionTable
+from foldwing.model.segment import MID_CHORD
+
+MOST_SWEEP = math.radians(80.0)
+"""Largest sweep of a segment, rad."""
+
+SWEEP = Quantity("an angle", "rad", "20", Bounds(-MOST_SWEEP, None, MOST_SWEEP), "degrees")
+CornerNumber = Annotated[int, Count(1, MOST_CORNERS)]
 
 HingeForm = Literal["springs", "stiffness", "rigid", "free"]
 
@@ -45,11 +57,14 @@ _FORMS = (
 class HingeTable(Record):
     """The hinge at the inboard edge of a segment: springs, one stiffness, rigid or free.
 
-    With ``springs`` the stiffness is that of each spring, without it that of the whole hinge.
+    With ``springs`` or ``positions`` the stiffness is that of each spring, without them that of the
+    whole hinge.
     """
 
     fold: Angle = 0.0
+    flare: Annotated[float, FLARE] | None = None
     gap: Distance = 0.0
+    positions: Positions | None = None
     springs: Annotated[int, Count(1, MOST_SPRINGS)] | None = None
     spacing: Distance | None = None
     stiffness: HingeStiffness | None = None
@@ -65,7 +80,9 @@ class HingeTable(Record):
         if len(kinds) > 1:
             limit = f"a hinge has only one of {' and '.join(kinds)}"
             raise fault((kinds[1],), getattr(self, kinds[1]), limit, _FORMS)
-        if self.springs is not None or self.spacing is not None:
+        if self.positions is not None:
+            self._check_positions(kinds)
+        elif self.springs is not None or self.spacing is not None:
             self._check_springs(kinds)
         elif not kinds:
             raise fault((), None, "needs a stiffness, or to be rigid or free", _FORMS)
@@ -86,6 +103,16 @@ class HingeTable(Record):
             limit = f"must be given for {self.springs} springs"
             raise fault(("spacing",), None, limit, 'Add spacing = "15 mm".')
 
+    def _check_positions(self, kinds: list[str]) -> None:
+        for key in ("springs", "spacing"):
+            if getattr(self, key) is not None:
+                limit = "must not be given together with positions"
+                raise fault((key,), getattr(self, key), limit, f"Remove {key}.")
+        if not kinds:
+            limit = "must be given together with positions, or the hinge be rigid or free"
+            remedy = 'Add the stiffness of each spring, stiffness = "0.18 N*m/rad".'
+            raise fault(("stiffness",), None, limit, remedy)
+
     @property
     def form(self) -> HingeForm:
         """Which of the four ways of describing a hinge was taken."""
@@ -93,15 +120,31 @@ class HingeTable(Record):
             return "rigid"
         if self.free:
             return "free"
-        return "stiffness" if self.springs is None else "springs"
+        discrete = self.springs is not None or self.positions is not None
+        return "springs" if discrete else "stiffness"
+
+
+class ModesTable(Record):
+    """Modes of the segment computed or measured elsewhere; ``file`` is found beside the model."""
+
+    file: str
+    geometry: str | None = None
+    length_unit: Length = 1.0
+    origin: Vector = (0.0, 0.0, 0.0)
+    x_axis: Vector = (1.0, 0.0, 0.0)
+    y_axis: Vector = (0.0, 1.0, 0.0)
+    mass: Mass | None = None
+    centre: Point | None = None
+    smoothing: Smoothing = 0.0
 
 
 class SegmentKeys(Record):
     """What may be said of one segment, or in the wing table of all."""
 
+    structure: Literal["beam", "plate"] | None = None
     span: Length | None = None
     chord: Length | None = None
-    thickness: Length | None = None
+    thickness: Thickness | None = None
     material: str | None = None
     elastic_axis: ChordFraction | None = None
     mass_centre: ChordFraction | None = None
@@ -115,6 +158,11 @@ class SegmentKeys(Record):
 class SegmentTable(SegmentKeys):
     """One segment; what it does not say is taken from the wing table."""
 
+    tip_chord: Length | None = None
+    sweep: Annotated[float, SWEEP] | None = None
+    corners: tuple[Point, ...] | None = None
+    outboard_edge: tuple[CornerNumber, ...] | None = None
+    modes: ModesTable | None = None
     hinge: HingeTable | None = None
 
 
@@ -225,6 +273,14 @@ class ModelFile(Record):
             limit = f"is required: a model has a table {' or '.join(f'[{t}]' for t in COMMANDS)}"
             raise fault(("wing",), None, limit, "Add wing.")
         return self
+
+    def built_of(self, structure: str) -> Self:
+        """Return the same model with segments of another structure, where they are not imported."""
+        if self.wing is None:
+            return self
+        segments = tuple(s.model_copy(update={"structure": None}) for s in self.wing.segment)
+        wing = self.wing.model_copy(update={"structure": structure, "segment": segments})
+        return self.model_copy(update={"wing": wing})
 
     def missing(self, table: str) -> InputError:
         """Return the error of a command that needs a table which this file does not have."""

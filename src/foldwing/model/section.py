@@ -6,9 +6,10 @@ from typing import Annotated, Self
 from pydantic import model_validator
 
 from foldwing.model.faults import as_input_error, fault
-from foldwing.model.parts import BEYOND_ROUND_OFF, Analysis
+from foldwing.model.parts import Analysis
 from foldwing.model.quantities import Bounds, Frequency, Length, Quantity, Ratio
 from foldwing.model.record import Record
+from foldwing.model.segment import BEYOND_ROUND_OFF
 
 AxisOffset = Annotated[
     float, Quantity("a distance in half chords", "", "-0.2", Bounds(at_least=-1, at_most=1))

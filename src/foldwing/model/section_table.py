@@ -6,7 +6,7 @@ from typing import Self
 from pydantic import model_validator
 
 from foldwing.model.faults import fault
-from foldwing.model.parts import BEYOND_ROUND_OFF, MID_CHORD, Air, Analysis
+from foldwing.model.parts import Air, Analysis
 from foldwing.model.quantities import (
     ChordFraction,
     Frequency,
@@ -19,6 +19,7 @@ from foldwing.model.quantities import (
 )
 from foldwing.model.record import Record
 from foldwing.model.section import AxisOffset, MassOffset, TypicalSection, check_pair
+from foldwing.model.segment import BEYOND_ROUND_OFF, MID_CHORD
 
 RATIOS = (
     "mass_ratio",

@@ -1,7 +1,5 @@
 """A sheet of isotropic material whose thickness may vary along chord and span."""
 
-from functools import cached_property
-
 import numpy as np
 
 from foldwing.maths.arrays import Real
@@ -31,7 +29,7 @@ class Sheet(Record):
     density: Density
     thickness: Thickness
 
-    @cached_property
+    @property
     def stiffness(self) -> Real:
         """Plane-stress stiffness Q in Pa, strains xx, yy and xy (engineering), shape (3, 3)."""
         E, nu = self.youngs_modulus, self.poissons_ratio

@@ -1,16 +1,21 @@
 """A folding wing: segments joined by hinges, with point masses, in air."""
 
+from collections.abc import Sequence
 from itertools import accumulate
 from typing import Self
 
+import numpy as np
 from pydantic import model_validator
 
 from foldwing.errors import InputError
 from foldwing.model.aircraft import Aircraft
 from foldwing.model.faults import Path, as_input_error, fault, shown
-from foldwing.model.parts import Air, Analysis, Hinge, Lattice, PointMass, Segment
+from foldwing.model.frames import Frames, frames
+from foldwing.model.joining import check_hinge
+from foldwing.model.parts import Air, Analysis, Hinge, Lattice, PointMass
 from foldwing.model.quantities import ANGLE, Bounds, Quantity
 from foldwing.model.record import Record
+from foldwing.model.segment import Segment, Structure
 
 GAP = Quantity("a length", "m", '"1 mm"', Bounds(at_least=0.0))
 IMBALANCE = Quantity("a static imbalance", "", "0.1", Bounds(at_least=0.0))
@@ -61,23 +66,13 @@ class Wing(Record):
         if len(self.hinges) != self.count - 1:
             limit = f"{self.count} segments need {self.count - 1} hinges"
             raise fault(("hinges",), len(self.hinges), limit, "Give one hinge between neighbours.")
-        for index in range(len(self.hinges)):
-            self._check_springs(index)
+        for index, hinge in enumerate(self.hinges):
+            check_hinge(index, self.segments, hinge)
         for index, mass in enumerate(self.point_masses):
             self._check_point_mass(index, mass)
         self._check_gaps()
         self._check_strips()
         return self
-
-    def _check_springs(self, index: int) -> None:
-        hinge = self.hinges[index]
-        chord = min(segment.chord for segment in self.segments[index : index + 2])
-        if (hinge.springs - 1) * hinge.spacing > chord * (1.0 + _ROUND_OFF):
-            limit = f"{hinge.springs} springs must fit in the narrower chord, {chord:g} m"
-            remedy = (
-                f"Keep the spacing to {chord / (hinge.springs - 1):g} m, or take fewer springs."
-            )
-            raise fault(("hinges", index, "spacing"), hinge.spacing, limit, remedy)
 
     def _check_point_mass(self, index: int, mass: PointMass) -> None:
         where: Path = ("point_masses", index)
@@ -85,11 +80,21 @@ class Wing(Record):
             limit = f"must be a segment of this wing, 1 to {self.count}"
             remedy = "Count the segments from 1 at the root."
             raise fault((*where, "segment"), mass.segment, limit, remedy)
-        span = self.segments[mass.segment - 1].span
-        if mass.y > span * (1.0 + _ROUND_OFF):
-            limit = f"must lie on segment {mass.segment}, 0 to {span:g} m"
+        segment = self.segments[mass.segment - 1]
+        low, high = segment.outline.extent
+        room = _ROUND_OFF * segment.span
+        if not low - room <= mass.y <= high + room:
+            limit = f"must lie on segment {mass.segment}, {low:g} to {high:g} m"
             remedy = "Measure y from the inboard edge of that segment."
             raise fault((*where, "y"), mass.y, limit, remedy)
+        if segment.structure is Structure.BEAM:
+            return
+        front, back = (float(x[0]) for x in segment.outline.chord_ends(np.array([mass.y])))
+        if not front - room <= mass.x <= back + room:
+            limit = f"must lie on the {segment.structure} of segment {mass.segment}, at this y "
+            limit += f"{front:g} to {back:g} m"
+            remedy = "Only beams carry masses beside themselves, on a rigid arm."
+            raise fault((*where, "x"), mass.x, limit, remedy)
 
     def _check_gaps(self) -> None:
         for index, segment in enumerate(self.segments):
@@ -133,11 +138,34 @@ class Wing(Record):
         """Angle Psi_1..Psi_N of each segment to the first in rad; the first is 0."""
         return tuple(accumulate(self.fold_angles, initial=0.0))
 
+    def frames(self, folds: Sequence[float] | None = None) -> Frames:
+        """Return the axes of the segments at fold angles in rad, by default its own."""
+        angles = self.fold_angles if folds is None else folds
+        ends = [segment.end for segment in self.segments]
+        return frames(ends, [hinge.direction for hinge in self.hinges], angles)
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether all segments are rectangles and all hinges run along the stream."""
+        flared = any(hinge.flare != 0.0 for hinge in self.hinges)
+        return not flared and all(segment.outline.is_rectangle for segment in self.segments)
+
+    @property
+    def structures(self) -> frozenset[Structure]:
+        """What the segments are."""
+        return frozenset(segment.structure for segment in self.segments)
+
     @property
     def mass_and_centre(self) -> tuple[float, float]:
-        """Mass of the wing in kg and where its centre lies aft of the elastic axis in m."""
-        parts = [(s.mass_per_span * s.span, s.mass_offset) for s in self.segments]
-        parts += [(point.mass, point.x) for point in self.point_masses]
+        """Mass of the unfolded wing in kg and where its centre lies aft of the root's axis in m."""
+        hung = self.frames((0.0,) * len(self.hinges)).origins
+        parts = [
+            (s.mass_and_centre.mass, float(o[0]) + s.mass_and_centre.x)
+            for s, o in zip(self.segments, hung, strict=True)
+        ]
+        parts += [
+            (point.mass, float(hung[point.segment - 1][0]) + point.x) for point in self.point_masses
+        ]
         mass = sum(m for m, _ in parts)
         return mass, sum(m * x for m, x in parts) / mass
 
@@ -222,9 +250,9 @@ class Wing(Record):
             masses = [
                 PointMass(
                     segment=number,
-                    mass=2.0 / 3.0 * s * segment.mass_per_span * segment.span,
-                    x=segment.half_chord / 2.0,
-                    y=segment.span,
+                    mass=2.0 / 3.0 * s * segment.mass_and_centre.mass,
+                    x=float(segment.end[0]) + segment.half_chord / 2.0,
+                    y=float(segment.end[1]),
                 )
                 for number, segment in enumerate(self.segments, start=1)
             ]

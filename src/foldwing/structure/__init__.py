@@ -4,6 +4,7 @@
 `component`     what every kind of segment model offers
 `spanwise`      functions along the span from which the modes of a beam are made
 `beam`          component modes of a beam segment
+`kinds`         which of these a segment has
 `hinges`        springs and constraints between segments
 `bodies`        fuselage and tail, rigid at the root
 `assembly`      mass, stiffness and constraints of the joined wing

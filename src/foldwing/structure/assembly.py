@@ -14,17 +14,11 @@ import numpy as np
 import scipy.linalg
 
 from foldwing.maths.arrays import Real
-from foldwing.maths.rotations import rotation_about_x
 from foldwing.model import PointMass, Wing
-from foldwing.structure.beam import beam_modes
 from foldwing.structure.bodies import RigidBody, rigid_bodies
 from foldwing.structure.component import ComponentModes, Root
-from foldwing.structure.hinges import (
-    hinge_points,
-    hinge_stiffness,
-    relative_slope,
-    slope_constraint,
-)
+from foldwing.structure.hinges import Joint, hinge_joint
+from foldwing.structure.kinds import component_modes
 
 
 @dataclass(frozen=True)
@@ -83,9 +77,9 @@ class Assembly:
     def stiffness(self) -> Real:
         """Stiffness matrix of the segments and hinge springs, shape (size, size)."""
         K = scipy.linalg.block_diag(*(c.stiffness for c in self.components))
-        for joint, hinge in enumerate(self.wing.hinges):
-            pair = self._pair(joint)
-            K[pair, pair] += hinge_stiffness(hinge, self._slopes[joint])
+        for index, joint in enumerate(self.joints):
+            pair = self._pair(index)
+            K[pair, pair] += joint.spring_matrix
         return np.asarray(K)
 
     @cached_property
@@ -96,11 +90,9 @@ class Assembly:
         would hide the softer.
         """
         rows = [scipy.linalg.block_diag(*(c.stiffness for c in self.components))]
-        for joint, hinge in enumerate(self.wing.hinges):
-            if hinge.stiffness > 0.0:
-                row = np.zeros((1, self.size))
-                row[0, self._pair(joint)] = self._slopes[joint]
-                rows.append(row)
+        for index, joint in enumerate(self.joints):
+            if joint.stiffness > 0.0:
+                rows.append(self._placed(index, joint.slopes))
         S = np.vstack(rows)
         norms = np.linalg.norm(S, axis=1, keepdims=True)
         return np.asarray(S[norms[:, 0] > 0.0] / norms[norms[:, 0] > 0.0])
@@ -113,48 +105,34 @@ class Assembly:
         energy = np.zeros(modes.shape[1])
         for component, q in zip(self.components, self.by_segment(modes), strict=True):
             energy += ((component.stiffness @ q) * q).sum(axis=0)
-        for joint, hinge in enumerate(self.wing.hinges):
-            energy += hinge.stiffness * (self._slopes[joint] @ modes[self._pair(joint)]) ** 2
+        for index, joint in enumerate(self.joints):
+            turned = joint.slopes @ modes[self._pair(index)]
+            energy += joint.stiffness * (turned**2).sum(axis=0)
         return energy
 
-    def _pair(self, joint: int) -> slice:
-        return slice(self.slices[joint].start, self.slices[joint + 1].stop)
+    def _pair(self, index: int) -> slice:
+        return slice(self.slices[index].start, self.slices[index + 1].stop)
+
+    def _placed(self, index: int, rows: Real) -> Real:
+        """Return rows in the coordinates of two neighbours among those of all segments."""
+        full = np.zeros((len(rows), self.size))
+        full[:, self._pair(index)] = rows
+        return full
 
     @cached_property
-    def _slopes(self) -> tuple[Real, ...]:
+    def joints(self) -> tuple[Joint, ...]:
+        """Springs and shared points of every hinge."""
+        sides = zip(pairwise(self.wing.segments), pairwise(self.components), strict=True)
         return tuple(
-            relative_slope(inner, segment.span, outer)
-            for inner, segment, outer in zip(
-                self.components[:-1], self.wing.segments[:-1], self.components[1:], strict=True
-            )
+            hinge_joint(hinge, segments, components)
+            for hinge, (segments, components) in zip(self.wing.hinges, sides, strict=True)
         )
-
-    @cached_property
-    def _edges(self) -> tuple[tuple[Real, Real], ...]:
-        """Local displacements of the shared points, inboard and outboard side, per hinge."""
-        edges = []
-        for joint, (inner, outer) in enumerate(
-            zip(self.components, self.components[1:], strict=False)
-        ):
-            segments = self.wing.segments
-            x = hinge_points(segments[joint], segments[joint + 1])
-            span = np.full(len(x), segments[joint].span)
-            edges.append((inner.displacement(x, span), outer.displacement(x, np.zeros(len(x)))))
-        return tuple(edges)
 
     def constraints(self, fold_angles: tuple[float, ...]) -> Real:
         """Return C of C q = 0 at the fold angles psi_2 .. psi_N in radians; rows are redundant."""
-        rows = [np.zeros((0, self.size))]
-        for joint, (fold, hinge) in enumerate(zip(fold_angles, self.wing.hinges, strict=True)):
-            inner, outer = self._edges[joint]
-            turned = np.einsum("ab,mbn->man", rotation_about_x(fold), outer)
-            together = np.concatenate([inner, -turned], axis=2).reshape(
-                -1, inner.shape[2] + outer.shape[2]
-            )
-            block = np.vstack([together, slope_constraint(hinge, self._slopes[joint])])
-            full = np.zeros((len(block), self.size))
-            full[:, self._pair(joint)] = block
-            rows.append(full)
+        rows: list[Real] = [np.zeros((0, self.size))]
+        for index, (fold, joint) in enumerate(zip(fold_angles, self.joints, strict=True)):
+            rows.append(self._placed(index, joint.constraints(fold)))
         return np.vstack(rows)
 
     @cached_property
@@ -174,13 +152,18 @@ def _point_mass(point: PointMass, component: ComponentModes) -> Real:
 
 
 def assemble(wing: Wing) -> Assembly:
-    """Return the assembly of a wing with beam segments.
+    """Return the assembly of a wing.
 
     The first segment is clamped, or moves with the aircraft that the wing belongs to.
+
+    Raises
+    ------
+    InputError
+        When modes that a segment imports cannot be read or used.
     """
     first = Root.CLAMPED if wing.aircraft is None else Root.CARRIAGE
     components = tuple(
-        beam_modes(segment, wing.analysis, Root.FREE if index else first)
+        component_modes(segment, wing.analysis, Root.FREE if index else first)
         for index, segment in enumerate(wing.segments)
     )
     return Assembly(wing, components)

@@ -55,7 +55,8 @@ class BeamModes:
     def mass(self) -> Real:
         """Mass matrix, shape (n, n), in kg and kg m^2."""
         segment = self.segment
-        m, i, x_cg = segment.mass_per_span, segment.inertia_per_span, segment.mass_offset
+        _, _, m, i = segment.beam
+        x_cg = segment.mass_offset
         y, weights = gauss_rule(segment.span, self._quadrature_points)
         h, phi = self.plunge.evaluate(y, 0), self.twist.evaluate(y, 0)
         M = np.zeros((self.count, self.count))
@@ -69,7 +70,8 @@ class BeamModes:
 
     def _in_plane_mass(self) -> Real:
         segment = self.segment
-        m, i, L = segment.mass_per_span, segment.inertia_per_span, segment.span
+        _, _, m, i = segment.beam
+        L = segment.span
         by_x, by_y = m * segment.mass_offset * L, m * L**2 / 2.0
         polar = m * L**3 / 3.0 + i * L
         return np.array([[m * L, 0.0, -by_y], [0.0, m * L, by_x], [-by_y, by_x, polar]])
@@ -82,8 +84,9 @@ class BeamModes:
         curvature, twist_rate = self.plunge.evaluate(y, 2), self.twist.evaluate(y, 1)
         K = np.zeros((self.count, self.count))
         bending, torsion, _ = self._blocks
-        K[bending, bending] = segment.bending_stiffness * _gram(curvature, curvature, weights)
-        K[torsion, torsion] = segment.torsion_stiffness * _gram(twist_rate, twist_rate, weights)
+        EI, GJ, _, _ = segment.beam
+        K[bending, bending] = EI * _gram(curvature, curvature, weights)
+        K[torsion, torsion] = GJ * _gram(twist_rate, twist_rate, weights)
         return K
 
     @cached_property
@@ -100,9 +103,8 @@ class BeamModes:
     @property
     def mass_and_centre(self) -> tuple[float, Real]:
         """Mass in kg, and x and y of its centre in m, shape (2,)."""
-        segment = self.segment
-        centre = np.array([segment.mass_offset, segment.span / 2.0])
-        return segment.mass_per_span * segment.span, centre
+        mass, *centre = self.segment.mass_and_centre
+        return mass, np.array(centre)
 
     @cached_property
     def mass_centre_motion(self) -> Real:
@@ -110,7 +112,7 @@ class BeamModes:
         segment = self.segment
         y, weights = gauss_rule(segment.span, self._quadrature_points)
         u = self.displacement(np.full_like(y, segment.mass_offset), y)
-        return np.asarray(segment.mass_per_span * np.einsum("m,man->an", weights, u))
+        return np.asarray(segment.beam.mass_per_span * np.einsum("m,man->an", weights, u))
 
     @property
     def _quadrature_points(self) -> int:

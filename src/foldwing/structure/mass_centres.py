@@ -42,16 +42,16 @@ def mass_centres(modes: StructuralModes) -> tuple[MassCentre, ...]:
 def _wing_centre(modes: StructuralModes) -> MassCentre:
     wing, total = modes.assembly.wing, 0.0
     place, moved = np.zeros(3), np.zeros((3, modes.count))
-    components = zip(wing.segments, modes.assembly.components, modes.by_segment, strict=True)
-    for index, (segment, component, q) in enumerate(components):
-        mass = segment.mass_per_span * segment.span
-        at = modes.position(index, np.array([segment.mass_offset]), np.array([segment.span / 2.0]))
+    components = zip(modes.assembly.components, modes.by_segment, strict=True)
+    for index, (component, q) in enumerate(components):
+        mass, (x, y) = component.mass_and_centre
+        at = modes.position(index, np.array([x]), np.array([y]))
         total, place = total + mass, place + mass * at[0]
         moved = moved + modes.rotations[index] @ component.mass_centre_motion @ q
     for point in wing.point_masses:
-        index, x, y = point.segment - 1, np.array([point.x]), np.array([point.y])
-        total, place = total + point.mass, place + point.mass * modes.position(index, x, y)[0]
-        moved = moved + point.mass * modes.displacement(index, x, y)[0]
+        index, where = point.segment - 1, (np.array([point.x]), np.array([point.y]))
+        total, place = total + point.mass, place + point.mass * modes.position(index, *where)[0]
+        moved = moved + point.mass * modes.displacement(index, *where)[0]
     return MassCentre("wing", total, place / total, moved / total)
 
 

@@ -10,8 +10,7 @@ import scipy.linalg
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Indices, Real
 from foldwing.maths.null_space import null_space
-from foldwing.maths.rotations import rotation_about_x
-from foldwing.model import HingeKind
+from foldwing.model import Frames, HingeKind
 from foldwing.structure.assembly import Assembly
 from foldwing.structure.component import SectionMotion
 
@@ -69,23 +68,23 @@ class StructuralModes:
         return tuple(self.assembly.by_segment(self.coordinates))
 
     @cached_property
-    def rotations(self) -> tuple[Real, ...]:
-        """Rotation A_i from the local axes of each segment to global axes."""
-        angles = np.cumsum([0.0, *self.fold_angles])
-        return tuple(rotation_about_x(float(angle)) for angle in angles)
+    def frames(self) -> Frames:
+        """Axes of the segments of the folded wing."""
+        return self.assembly.wing.frames(self.fold_angles)
 
-    @cached_property
+    @property
+    def rotations(self) -> tuple[Real, ...]:
+        """Rotation R_i from the local axes of each segment to global axes."""
+        return self.frames.rotations
+
+    @property
     def origins(self) -> tuple[Real, ...]:
         """Global position of the origin of each segment, shape (3,), in metres."""
-        points = [np.zeros(3)]
-        for segment, A in zip(self.assembly.wing.segments, self.rotations, strict=True):
-            points.append(points[-1] + A @ np.array([0.0, segment.span, 0.0]))
-        return tuple(points[:-1])
+        return self.frames.origins
 
     def position(self, segment: int, x: Real, y: Real) -> Real:
         """Return the global position at rest of points of one segment (from 0), shape (m, 3)."""
-        local = np.stack([x, y, np.zeros_like(x)], axis=-1)
-        return self.origins[segment] + local @ self.rotations[segment].T
+        return self.frames.position(segment, x, y)
 
     def displacement(self, segment: int, x: Real, y: Real) -> Real:
         """Return the global displacement of points per unit modal coordinate, shape (m, 3, n)."""
@@ -241,7 +240,7 @@ def _as_a_whole(still: StructuralModes) -> Real:
     """
     moved, wanted = [], []
     for index, segment in enumerate(still.assembly.wing.segments):
-        x, y = np.array([0.0, 0.0, segment.chord]), np.array([0.0, segment.span, 0.0])
+        x, y = segment.outline.array.T
         at, zero = still.position(index, x, y), np.zeros(len(x))
         unit = np.broadcast_to(np.eye(3)[:, [0, 2]], (len(x), 3, 2))
         pitch = np.stack([at[:, 2], zero, -at[:, 0]], axis=1)
