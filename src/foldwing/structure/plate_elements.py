@@ -31,9 +31,7 @@ _VERTEX = (_VALUE, *_SLOPES, *_CURVATURES)
 
 def monomials(points: Real, derivative: tuple[int, int]) -> Real:
     """Return a derivative of the 21 monomials at points (..., 2), shape (..., 21)."""
-    along = [
-        _power(points[..., axis], _POWERS[:, axis], derivative[axis]) for axis in (0, 1)
-    ]
+    along = [_power(points[..., axis], _POWERS[:, axis], derivative[axis]) for axis in (0, 1)]
     return np.asarray(along[0] * along[1])
 
 
@@ -108,7 +106,9 @@ class Argyris:
     @cached_property
     def functions(self) -> Real:
         """Coefficients of the 21 functions of every element, shape (e, 21 monomials, 21)."""
-        p = (self.triangles.points[self.corners] - self.middles[:, None]) / self.sizes[:, None, None]
+        p = (self.triangles.points[self.corners] - self.middles[:, None]) / self.sizes[
+            :, None, None
+        ]
         rows, orders = [], []
         for vertex in range(3):
             rows += [monomials(p[:, vertex], d) for d in _VERTEX]

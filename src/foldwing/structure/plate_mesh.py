@@ -48,7 +48,9 @@ def _is_convex(corners: Real) -> bool:
 def _of_quadrilateral(corners: Real, size: float) -> Triangles:
     """Return cells of four triangles that meet in the middle of the cell."""
     a, b, c, d = corners
-    sides = np.linalg.norm(np.stack([b - a, c - d, d - a, c - b]), axis=1).reshape(2, 2).mean(axis=1)
+    sides = (
+        np.linalg.norm(np.stack([b - a, c - d, d - a, c - b]), axis=1).reshape(2, 2).mean(axis=1)
+    )
     m, n = np.maximum(1, np.ceil(sides / size - 1e-6)).astype(int)
 
     def place(u: Real, v: Real) -> Real:
