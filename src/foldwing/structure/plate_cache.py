@@ -97,7 +97,8 @@ def cache_folder() -> Path | None:
 
 def _read(file: Path) -> ElasticModes | None:
     # There is no list of what a damaged file may raise, and none of it may end a run.
-    with suppress(Exception), np.load(file, allow_pickle=False) as held:
+    with suppress(Exception), file.open("rb") as stream:
+        held = np.load(stream, allow_pickle=False)
         return ElasticModes(**{field.name: held[field.name] for field in fields(ElasticModes)})
     return None
 
