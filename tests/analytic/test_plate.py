@@ -355,3 +355,13 @@ def test_bad_requests_are_refused_before_anything_is_computed():
         plate_modes(plate, 4, Root.FREE, size=0.0)
     with pytest.raises(ComputationError, match="too few"):
         plate_modes(plate, 60, Root.CLAMPED, size=0.1)
+
+
+def test_modes_are_the_same_each_time_and_have_their_sign_fixed():
+    """Of a free square, two of whose modes share a frequency."""
+    first, second = (elastic_modes(SQUARE, sheet(), 6, False, 0.02) for _ in range(2))
+    np.testing.assert_array_equal(first.coefficients, second.coefficients)
+    modes = modes_of(SQUARE, Root.FREE)
+    w = modes.displacement(*modes.elastic.points.T)[:, 2, 3:8]
+    farthest = np.argmax(np.abs(w) > 0.999 * np.abs(w).max(axis=0), axis=0)
+    assert np.all(w[farthest, np.arange(5)] > 0.0)
