@@ -82,6 +82,14 @@ def strips_warning(strips: Strips, fold_angles: Sequence[float], image: bool) ->
     return ""
 
 
+def check_plain(wing: Wing) -> None:
+    """Raise `InputError` unless all segments are rectangles and all hinges run along the stream."""
+    if not wing.is_plain:
+        limit = "aerodynamics knows rectangular segments and hinges along the stream only"
+        remedy = "Use foldwing modes, which takes any outline and flare."
+        raise InputError("wing", "another outline or a flared hinge", limit, remedy)
+
+
 def have_equal_chords(wing: Wing) -> bool:
     """Return whether all segments have the same chord."""
     return len({segment.chord for segment in wing.segments}) == 1

@@ -8,6 +8,7 @@ import numpy as np
 from foldwing.aerodynamics.combined import CombinedModel
 from foldwing.aerodynamics.doubts import (
     check_equal_chords,
+    check_plain,
     gap_warning,
     have_equal_chords,
     strips_warning,
@@ -88,6 +89,7 @@ class AeroelasticWing:
             limit = f"must be one of: {', '.join(AERODYNAMIC_MODELS)}"
             remedy = f"The default is {AERODYNAMIC_MODELS[0]}."
             raise InputError("aerodynamics", self.aerodynamics, limit, remedy)
+        check_plain(self.wing)
         scheme = self.wing.lattice.scheme
         if self.aerodynamics == "lattice" and scheme != "exact":
             check_equal_chords(self.wing, "lattice.scheme", scheme, 'Take scheme = "exact".')

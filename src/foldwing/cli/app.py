@@ -62,6 +62,7 @@ def modes(
     fold: options.Fold = None,
     fold_of: options.FoldOf = None,
     basis: options.Basis = None,
+    structure: options.Structure = None,
     measured: options.Measured = None,
     clamped: options.Clamped = False,
     plot: options.Plot = True,
@@ -73,7 +74,9 @@ def modes(
     from foldwing.cli.commands import Output, run_modes
     from foldwing.cli.request import Request
 
-    request = Request(model, fold, fold_of, basis=basis, measured=measured, clamped=clamped)
+    request = Request(
+        model, fold, fold_of, basis=basis, structure=structure, measured=measured, clamped=clamped
+    )
     run_modes(request, Output(plot, out, force, json))
 
 
@@ -90,6 +93,7 @@ def flutter(
     spacing: options.Spacing = None,
     gap: options.Gap = None,
     basis: options.Basis = None,
+    structure: options.Structure = None,
     damping: options.Damping = None,
     damping_threshold: options.Threshold = None,
     method: options.Method = "sweep",
@@ -109,6 +113,7 @@ def flutter(
         fold,
         fold_of,
         basis=basis,
+        structure=structure,
         aero=aero,
         drop_mode=drop_mode,
         panels=panels,
@@ -137,6 +142,7 @@ def boundary(
     spacing: options.Spacing = None,
     gap: options.Gap = None,
     basis: options.Basis = None,
+    structure: options.Structure = None,
     damping: options.Damping = None,
     damping_threshold: options.Threshold = None,
     measured: options.Measured = None,
@@ -159,6 +165,7 @@ def boundary(
         fold,
         fold_of,
         basis=basis,
+        structure=structure,
         aero=aero,
         drop_mode=drop_mode,
         panels=panels,
@@ -189,6 +196,7 @@ def convergence(
     spacing: options.Spacing = None,
     gap: options.Gap = None,
     basis: options.Basis = None,
+    structure: options.Structure = None,
     damping: options.Damping = None,
     damping_threshold: options.Threshold = None,
     vary: options.Vary = None,
@@ -210,6 +218,7 @@ def convergence(
         fold,
         fold_of,
         basis=basis,
+        structure=structure,
         aero=aero,
         drop_mode=drop_mode,
         panels=panels,
@@ -277,6 +286,7 @@ def aircraft(
     spacing: options.Spacing = None,
     gap: options.Gap = None,
     basis: options.Basis = None,
+    structure: options.Structure = None,
     damping: options.Damping = None,
     damping_threshold: options.Threshold = None,
     plot: options.Plot = True,
@@ -294,6 +304,7 @@ def aircraft(
         fold,
         fold_of,
         basis=basis,
+        structure=structure,
         aero=aero,
         drop_mode=drop_mode,
         panels=panels,

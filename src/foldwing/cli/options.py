@@ -126,6 +126,14 @@ Basis = Annotated[
         "--basis", metavar="NAME", help="free-free or converged component modes, not the model's."
     ),
 ]
+Structure = Annotated[
+    Literal["beam", "plate"] | None,
+    typer.Option(
+        "--structure",
+        metavar="NAME",
+        help="beam or plate, for all segments; not the model's.",
+    ),
+]
 Damping = Annotated[
     str | None,
     typer.Option(

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 from foldwing.errors import InputError
-from foldwing.model import Wing, parse_model
+from foldwing.model import Wing, folder_of, parse_model
 
 if TYPE_CHECKING:
     from foldwing.aeroelastic.wing import AeroelasticWing
@@ -21,6 +21,7 @@ class Request:
     fold: str | None = None
     fold_of: list[str] | None = None
     basis: str | None = None
+    structure: str | None = None
     aero: str | None = None
     drop_mode: list[str] | None = None
     panels: str | None = None
@@ -49,7 +50,8 @@ class Request:
 
     def wing(self, text: str) -> Wing:
         """Return the wing of the model file, its analysis changed by the options."""
-        wing = parse_model(text, self.model)
+        folder = folder_of(self.model)
+        wing = parse_model(text, self.model, structure=self.structure, folder=folder)
         changes = {
             "basis": self.basis,
             "damping": self.damping,

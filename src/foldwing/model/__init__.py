@@ -49,6 +49,7 @@ from foldwing.model.planform import (
     trapezoid,
 )
 from foldwing.model.reader import (
+    folder_of,
     model_text,
     parse_file,
     parse_flight,
@@ -92,6 +93,7 @@ __all__ = [
     "example_names",
     "example_text",
     "flare_of",
+    "folder_of",
     "frames",
     "hinge_direction",
     "json_schema",

@@ -4,6 +4,9 @@
 `component`     what every kind of segment model offers
 `spanwise`      functions along the span from which the modes of a beam are made
 `beam`          component modes of a beam segment
+`plate`         component modes of a plate segment of any outline, by finite elements:
+                `plate_mesh`, `plate_elements`, `plate_elastic`; `plate_cache` keeps them
+`sections`      plunge and twist of sections that bend along the chord
 `kinds`         which of these a segment has
 `hinges`        springs and constraints between segments
 `bodies`        fuselage and tail, rigid at the root

@@ -20,7 +20,7 @@ from foldwing.studies.shapes import SurfaceGrid, surface_grid
 if TYPE_CHECKING:
     import xarray
 
-METHOD = "beam segments joined in the null space of their constraints"
+METHOD = "component modes of the segments joined in the null space of their constraints"
 
 Variables = dict[str, Any]
 

@@ -74,6 +74,6 @@ def surface_grid(wing: Wing) -> SurfaceGrid:
         segment=np.repeat(np.arange(1, len(segments) + 1), len(spanwise)),
         chordwise=np.tile(chordwise, len(segments)),
         spanwise=np.tile(spanwise, len(segments)),
-        x=np.concatenate([(fraction_x - s.elastic_axis) * s.chord for s in segments]),
-        y=np.concatenate([fraction_y * s.span for s in segments]),
+        x=np.concatenate([s.outline.point(fraction_x, fraction_y)[:, 0] for s in segments]),
+        y=np.concatenate([s.outline.point(fraction_x, fraction_y)[:, 1] for s in segments]),
     )

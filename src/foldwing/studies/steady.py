@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from foldwing.aerodynamics.doubts import gap_warning, strips_warning
+from foldwing.aerodynamics.doubts import check_plain, gap_warning, strips_warning
 from foldwing.aerodynamics.lattice import Strips, mesh_segments
 from foldwing.aerodynamics.steady_loads import WingLoads, least_drag_known, wing_loads, wing_strips
 from foldwing.errors import InputError
@@ -127,6 +127,7 @@ def steady_study(
         case.
     """
     check_stream(alpha, speed)
+    check_plain(wing)
     wings = _by_gap(wing)
     run = _solved if len(cases) == 1 else _attempt
     outcomes = tuple(run(wings, case, alpha, speed) for case in cases)
