@@ -133,7 +133,7 @@ def test_many_points_are_treated_in_blocks(monkeypatch: pytest.MonkeyPatch) -> N
 def test_line_spline_is_exact_for_cubics_and_straight_beyond_the_ends() -> None:
     direction = np.array([0.28, 0.96])
     s = np.array([0.5, 0.0, 0.9, 0.2, 0.7])
-    points = np.outer(s, direction) + [0.1, -0.2]
+    points = np.outer(s, direction) + np.array([0.1, -0.2])
     spline = line_spline(points, (s**3)[:, None])
     across = np.array([-0.96, 0.28])
     at = 0.4 * direction + [0.1, -0.2] + 0.05 * across

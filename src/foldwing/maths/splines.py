@@ -4,7 +4,8 @@ The infinite-plate spline of R. L. Harder and R. N. Desmarais, "Interpolation us
 splines", J. Aircraft 9 (1972) 189-191, is the deflection of an unbounded thin plate held at the
 points:
 
-    w(x, y) = a0 + a1 x + a2 y + sum_i F_i r_i^2 ln r_i^2,   sum F_i = sum F_i x_i = sum F_i y_i = 0.
+    w(x, y) = a0 + a1 x + a2 y + sum_i F_i r_i^2 ln r_i^2,
+    sum F_i = sum F_i x_i = sum F_i y_i = 0.
 
 Points on one line carry no information across it; through them goes a cubic spline along the line.
 """
