@@ -40,8 +40,8 @@ MOMENTUM = 0.05
 EDGE_MOTION = 0.02
 """Displacement of a clamped edge, relative to the largest, from which a mode is named."""
 
-EDGE_SLOPE = 0.1
-"""Slope at a clamped edge times the segment's extent, relative to the largest displacement."""
+EDGE_SLOPE = 0.25
+"""Slope at a clamped edge, relative to the largest, from which a mode is named."""
 
 MASS_RATIO = 5.0
 """Ratio of modal masses to those of an even sheet, or its inverse, that is named."""
@@ -88,6 +88,7 @@ def doubts(modes: "ImportedModes", mode_set: ModeSet, nodes: Nodes) -> "Imported
     """Return the modes with their doubts among the warnings."""
     points, weights = area_rule(modes.planform, _POINTS)
     w = modes.surface.evaluate(points)
+    largest = np.abs(np.vstack([w, nodes.values])).max(axis=0)
     texts = [
         *_about_points(modes.planform, mode_set, nodes),
         *_about_fit(modes),
@@ -97,13 +98,8 @@ def doubts(modes: "ImportedModes", mode_set: ModeSet, nodes: Nodes) -> "Imported
     if modes.root is Root.FREE:
         texts += _about_momentum(modes, points, weights, w)
     else:
-        texts += _about_clamping(modes, float_max(w, nodes.values))
+        texts += _about_clamping(modes, points, largest)
     return replace(modes, warnings=(*modes.warnings, *texts))
-
-
-def float_max(*values: Real) -> Real:
-    """Return the largest modulus in each column of several arrays."""
-    return np.asarray(np.abs(np.vstack(values)).max(axis=0))
 
 
 def _named(modes: "ImportedModes", values: Real, limit: float, what: str) -> list[str]:
@@ -176,19 +172,17 @@ def _about_momentum(modes: "ImportedModes", points: Real, weights: Real, w: Real
     return _named(modes, share, MOMENTUM, what)
 
 
-def _about_clamping(modes: "ImportedModes", largest: Real) -> list[str]:
+def _about_clamping(modes: "ImportedModes", points: Real, largest: Real) -> list[str]:
     lead, trail = modes.planform.inboard_edge
     along = (trail - lead) / np.linalg.norm(trail - lead)
     edge = lead + np.linspace(0.0, 1.0, 21)[:, None] * (trail - lead)
     motion = np.abs(modes.surface.evaluate(edge)).max(axis=0) / largest
-    slopes = np.array([-along[1], along[0]]) @ modes.surface.slopes(edge)
-    slope = np.abs(slopes).max(axis=0) * modes.planform.size / largest
+    # Twist gives the edge a slope too, but none at the elastic axis.
+    axis = lead + modes.elastic_axis * (trail - lead)
+    slope = np.abs(np.array([-along[1], along[0]]) @ modes.surface.slopes(axis))[0]
+    steepest = np.linalg.norm(modes.surface.slopes(points), axis=1).max(axis=0)
+    what = "at the clamped edge, of the largest"
     return [
-        *_named(modes, motion, EDGE_MOTION, "displacement of the clamped edge, of the largest"),
-        *_named(
-            modes,
-            slope,
-            EDGE_SLOPE,
-            "slope at the clamped edge times the segment's extent, of the largest displacement",
-        ),
+        *_named(modes, motion, EDGE_MOTION, f"displacement {what}"),
+        *_named(modes, slope / steepest, EDGE_SLOPE, f"slope on the elastic axis {what}"),
     ]
