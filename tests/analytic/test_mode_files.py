@@ -120,7 +120,7 @@ def test_millimetres_tonnes_and_seconds(tmp_path: Path) -> None:
 @pytest.mark.parametrize("seed", range(3))
 def test_csv_and_netcdf_come_back_to_the_last_bit(tmp_path: Path, ending: str, seed: int) -> None:
     modes = replace(
-        random_mode_set(seed), names=tuple("ä b,c;d\"e'fgh"[i : i + 2] for i in range(8))
+        random_mode_set(seed), names=tuple("ä,b;c\"d'ef#g"[i : i + 2] for i in range(8))
     )
     path = tmp_path / f"modes{ending}"
     write_modes(modes, path)
@@ -135,7 +135,7 @@ def test_universal_files_come_back_to_their_six_digits(tmp_path: Path, ending: s
     back = read_modes(path)
     assert_same(modes, back, rel=5.01e-6)
     assert_same(modes, back, names=("points",), rel=1e-15)
-    assert not back.warnings
+    assert all("phases scatter" in text for text in back.warnings)
     write_modes(back, tmp_path / "again.unv")
     assert (tmp_path / "again.unv").read_bytes() == path.read_bytes()
 
@@ -254,7 +254,7 @@ def test_complex_shapes_in_a_table_are_made_real_and_named(tmp_path: Path) -> No
         ("T1,front,1\nT1,rear,-0.9", "T1,front,0\nT1,rear,0", "mode 2: shape: got 0.0"),
         ("mode,point,uz", "mode,point,w", "modes.csv:14: column: got 'w'"),
         ("point,x,y,z", "point,x,z", "modes.csv:5: y: missing"),
-        ("point,x,y,z\n", "", "modes.csv:6: got 'root,0,0,0'"),
+        ("point,x,y,z\n", "", "modes.csv:5: got 'root,0,0,0'"),
         ("length_unit: mm", "length_unit: kg", "modes.csv:2: length_unit"),
         ("mode,frequency_hz", "point,x,y\na,1,2\nmode,frequency_hz", "points must stand once"),
         ("rear,25", '"rear,25', "modes.csv:8: got"),
@@ -327,6 +327,8 @@ def test_mode_sets_of_arrays_are_checked_too() -> None:
         ({"points": np.full((8, 3), np.inf)}, "point .*: x"),
         ({"complexity": np.full(3, 99.0)}, "phase scatter"),
         ({"names": ("a",) * 8}, "must stand once"),
+        ({"names": ("#1", *good.names[1:])}, "must be printable"),
+        ({"names": ("a\nb", *good.names[1:])}, "must be printable"),
     ):
         with pytest.raises(InputError, match=words):
             replace(good, **change)

@@ -119,6 +119,9 @@ def _check_points(modes: "ModeSet") -> None:
         if name in seen:
             limit = "must stand once"
             raise InputError(f"{modes.source}: point", name, limit, "Rename or remove one of them.")
+        if not name or name != name.strip() or not name.isprintable() or name.startswith("#"):
+            limit = "must be printable text in one line, and not begin with # or a space"
+            raise InputError(f"{modes.source}: point", name, limit, "Rename it.")
         seen.add(name)
     tree, scale = cKDTree(modes.points), np.abs(modes.shapes).max(axis=(1, 2))
     for i, j in sorted(tree.query_pairs(_SAME_PLACE * float(np.ptp(modes.points, axis=0).max()))):

@@ -46,11 +46,28 @@ def read_bulk(path: Path) -> dict[int, Grid]:
     """
     bulk = _pyyeti(path).bulk
     with trusting_nobody(path, "a bulk data file that can be read", _CARDS):
-        cards = bulk.rdgrids(str(path), encoding="latin-1")
+        cards, defaults = (
+            bulk.rdcards(str(path), name, return_var="list", no_data_return=[], encoding="latin-1")
+            for name in ("grid", "grdset")
+        )
         systems = bulk.rdcord2cards(str(path), encoding="latin-1")
-    if cards is None or not len(cards):
+    if defaults:
+        limit = "is not read: every GRID card must state its own coordinate systems"
+        raise InputError(f"{path}: GRDSET", "a card", limit, "Write them into the GRID cards.")
+    if not cards:
         raise InputError(f"{path}: GRID", None, "must hold GRID cards", _CARDS)
-    return _grids(path, np.asarray(cards, float), systems)
+    return _grids(path, np.array([_fields(path, card) for card in cards]), systems)
+
+
+def _fields(path: Path, card: Sequence[object]) -> list[float]:
+    """Return number, system, x, y, z and system of displacements of a GRID card; blanks are 0."""
+    given = [*card, *[""] * 6][:6]
+    for field in given:
+        if not isinstance(field, int | float) and field != "":
+            limit = "must be numbers: a grid point, its system, x, y, z, and another system"
+            where = f"{path}: GRID {card[0]}"
+            raise InputError(where, field, limit, "Correct the card.")
+    return [float(field) if field != "" else 0.0 for field in given]  # type: ignore[arg-type]
 
 
 def _pyyeti(path: Path) -> Any:

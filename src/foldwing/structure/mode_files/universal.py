@@ -69,7 +69,8 @@ def read_universal(path: Path) -> RawModes:
 
 
 def _check_ends(path: Path) -> None:
-    ends = sum(line.startswith(b"    -1") and not line[6:].strip() for line in path.open("rb"))
+    with path.open("rb") as file:
+        ends = sum(line.startswith(b"    -1") and not line[6:].strip() for line in file)
     if ends % 2:
         limit = "the last dataset has no end: the file is cut short"
         raise InputError(str(path), f"{ends} lines with -1", limit, "Export or copy it again.")
@@ -129,6 +130,10 @@ def _nodes(path: Path, sets: list[Mapping[str, Any]]) -> tuple[list[int], Real, 
     if np.abs(columns[0]).max(initial=0.0) > _MOST_LABELS:
         limit = f"must be at most {_MOST_LABELS}"
         raise InputError(f"{path}: node", float(np.abs(columns[0]).max()), limit, _EXPORT)
+    repeated, times = np.unique(columns[0], return_counts=True)
+    if times.max(initial=0) > 1:
+        limit = "must stand once"
+        raise InputError(f"{path}: node", int(repeated[times.argmax()]), limit, _EXPORT)
     systems = {float(each) for key in ("def_cs", "disp_cs") for each in nodes[key]}
     if len(systems) > 1:
         given = ", ".join(f"{s:g}" for s in sorted(systems))
