@@ -54,7 +54,7 @@ def grid(segment: Segment = SEGMENT, along: int = 31, across: int = 7) -> np.nda
 
 
 def beam_mode_set(
-    root: Root, segment: Segment = SEGMENT, points: np.ndarray | None = None, count: int = 10
+    root: Root, segment: Segment = SEGMENT, points: np.ndarray | None = None, count: int | None = 10
 ) -> ModeSet:
     """Natural modes of a beam segment on points, rigid ones included."""
     modes = beam(root, segment)
