@@ -123,6 +123,8 @@ def test_what_is_wrong_in_a_punch_file_is_named_with_its_line(tmp_path, old, new
         ("GRID,2,", "GRID,3,", "every grid point must stand once"),
         ("GRID,2,,100.", "GRID,2,9,100.", "coordinate system: got 9"),
         ("GRID,2,,100.", "GRID,2,,1x0.", "GRID 2: got '1x0.'"),
+        ("GRID,2,,100.", f"GRID,2,,{'9' * 400}", "GRID 2: got '999"),
+        ("GRID,2,,100.", "GRID,200000000,,100.", "GRID: got"),
         ("$ fields", "GRDSET,,7\n$ fields", "GRDSET: got 'a card'"),
         ("100.,0.,0.", "100.,0.,0.,12", "coordinate system: got 12"),
     ],
@@ -145,6 +147,9 @@ def test_what_a_punch_file_lacks_is_asked_for(tmp_path: Path) -> None:
     cut, _ = both(tmp_path, "".join(PUNCH.splitlines(keepends=True)[:-4]))
     with pytest.raises(InputError, match=r"mode 2: grid point 4: missing"):
         read_modes(cut, geometry=bulk, modal_mass=1.0)
+    bare, _ = both(tmp_path, "".join(PUNCH.splitlines(keepends=True)[:7]))
+    with pytest.raises(InputError, match=r"shapes: got 'none'"):
+        read_modes(bare, geometry=bulk, modal_mass=1.0)
     empty, _ = both(tmp_path, "$TITLE = NOTHING\n")
     with pytest.raises(InputError, match=r"no eigenvector"):
         read_modes(empty, geometry=bulk)

@@ -145,6 +145,7 @@ WITHOUT_13 = {n: u for n, u in twisting().items() if n != 13}
             [nodes_15({n: p for n, p in PLACES.items() if n != 13}), GOOD],
             "mode 1: node: got 13; must be among",
         ),
+        ([nodes_15(), shape(record(4.5, 1.0, 0.0, 0.0), {})], "shapes: got 'none'"),
         ([nodes_15(), GOOD, GOOD], "smallest singular value"),
         ([nodes_15() + units(0.0, 1.0), GOOD], "units: length: got 0.0"),
         ([nodes_15({n: (np.nan, *p[1:]) for n, p in PLACES.items()}), GOOD], "point 11: x"),

@@ -16,6 +16,8 @@ from foldwing.structure.mode_files.raw import RawModes, trusting_nobody
 
 _CARDS = "Name the bulk data file that holds the GRID cards of the model."
 _POST = "Write the file with PARAM,POST,-1 and VECTOR(PLOT) = ALL."
+_LARGEST = 1e15
+_MOST_GRID = 100_000_000  # of Nastran itself
 _TABLES = ("OUGV1", "BOPHIG", "OUG1")
 
 
@@ -63,10 +65,10 @@ def _fields(path: Path, card: Sequence[object]) -> list[float]:
     """Return number, system, x, y, z and system of displacements of a GRID card; blanks are 0."""
     given = [*card, *[""] * 6][:6]
     for field in given:
-        if not isinstance(field, int | float) and field != "":
+        if field != "" and not (isinstance(field, int | float) and abs(field) < _LARGEST):
             limit = "must be numbers: a grid point, its system, x, y, z, and another system"
-            where = f"{path}: GRID {card[0]}"
-            raise InputError(where, field, limit, "Correct the card.")
+            where = f"{path}: GRID {str(card[0])[:16]}"
+            raise InputError(where, str(field)[:40], limit, "Correct the card.")
     return [float(field) if field != "" else 0.0 for field in given]  # type: ignore[arg-type]
 
 
@@ -89,8 +91,8 @@ def _grids(path: Path, cards: Real, systems: Mapping[int, Any]) -> dict[int, Gri
         repeated = float(numbers[np.argmax(counts)])
         limit = "every grid point must stand once"
         raise InputError(f"{path}: GRID", repeated, limit, "Remove one of the cards.")
-    if not (np.all(np.isfinite(cards[:, :6])) and numbers[0] > 0):
-        limit = "must have a number above 0 and finite coordinates"
+    if not (np.all(np.isfinite(cards[:, :6])) and 0 < numbers[0] <= numbers[-1] <= _MOST_GRID):
+        limit = f"must have a number from 1 to {_MOST_GRID} and finite coordinates"
         raise InputError(f"{path}: GRID", "a card without them", limit, _CARDS)
     for column, what in ((1, "positions"), (5, "displacements")):
         unknown = {int(s) for s in cards[:, column]} - {0, *systems}
@@ -122,6 +124,9 @@ def joined(
         When a mode lacks a point that another has, or a point has no position.
     """
     used = sorted(set().union(*shapes))
+    if not used:
+        limit = "must hold displacements of grid points"
+        raise InputError(f"{path}: shapes", "none", limit, "The file may be cut short.")
     for mode, shape in enumerate(shapes, 1):
         for number in used:
             if number not in shape:

@@ -35,8 +35,10 @@ def read_netcdf(path: Path) -> RawModes:
         When it is damaged, or a variable is missing or of another shape.
     """
     with trusting_nobody(path, "a netCDF file that can be read", "Export the modes anew."):
+        import h5py
         import xarray
 
+        h5py.File(path, "r").close()  # what it cannot open, h5netcdf cannot close either
         dataset = xarray.load_dataset(path, engine="h5netcdf", decode_times=False)
         content = {name: _checked(path, dataset, name) for name in _VARIABLES if name in dataset}
         units = {name: str(dataset[name].attrs.get("units", "")) for name in content}

@@ -105,6 +105,9 @@ def finished(raw: RawModes, wishes: Wishes, source: str) -> ModeSet:
     if count > len(raw.frequencies):
         limit = f"must be at most {len(raw.frequencies)}, the modes of {source}"
         raise InputError("count", count, limit, "Leave it out for all.")
+    if raw.shapes.size == 0:
+        limit = "must hold displacements of points"
+        raise InputError(f"{source}: shapes", "none", limit, "Export the shapes too.")
     length, by_length = _unit("length", wishes.length_unit, raw.length_unit)
     mass, by_mass = _unit("mass", wishes.mass_unit, raw.mass_unit)
     own = raw.modal_mass if wishes.modal_mass is None else np.full(count, wishes.modal_mass)

@@ -163,7 +163,8 @@ def _by_node(
                 field = f"{path}: mode {mode}: node {number}"
                 raise InputError(field, None, limit, "Export the shapes of all nodes.")
     moving = [i for number, i in place.items() if number in used]
-    return moving, np.array([[table[numbers[i]] for i in moving] for table in tables])
+    values = [table[numbers[i]] for table in tables for i in moving]
+    return moving, np.array(values).reshape(len(tables), len(moving), 3)
 
 
 def _displacements(
