@@ -124,6 +124,22 @@ def test_sections_of_a_swept_segment_are_exact_for_rigid_motions() -> None:
     assert np.isnan(modes.section_motion(np.array([9.0])).twist[0, 2])
 
 
+def test_rigid_masses_of_a_swept_segment_are_integrals_of_its_displacements() -> None:
+    points = np.column_stack([KITE.point(*np.random.default_rng(0).random((2, 60))), np.zeros(60)])
+    shape = np.zeros((1, 60, 3))
+    shape[0, :, 2] = points[:, 1] ** 2
+    given = mode_set([10.0], shape, points)
+    modes = imported_modes(given, KITE, 0.3, uniform_sheet(KITE, 2.0), Root.FREE)
+    at, weights = area_rule(KITE, 4)
+    u = modes.displacement(*at.T)
+    M, rigid = 2.0 * np.einsum("m,mai,maj->ij", weights, u, u), [0, 1, 2, 4, 5, 6]
+    assert modes.mass[np.ix_(rigid, rigid)] == pytest.approx(M[np.ix_(rigid, rigid)], abs=1e-15)
+    moved = 2.0 * np.einsum("m,mai->ai", weights, u)
+    assert modes.mass_centre_motion[:, rigid] == pytest.approx(moved[:, rigid], abs=1e-15)
+    mass, centre = modes.mass_and_centre
+    assert mass * centre == pytest.approx(2.0 * weights @ at)
+
+
 def test_slopes_are_those_of_finite_differences() -> None:
     modes, step = free(), 1e-6
     x, y = np.array([-0.031, 0.0, 0.047]), np.array([0.011, 0.15, 0.299])
