@@ -41,22 +41,32 @@ def test_planes_are_exact_everywhere_even_far_outside_and_with_smoothing() -> No
         (lambda x, y: x**3 - 2 * x * y**2, lambda x, y: (3 * x**2 - 2 * y**2, -4 * x * y)),
     ],
 )
-def test_edges_converge_with_second_order_in_values_and_first_in_slopes(field, slopes) -> None:
-    """The plate has free edges, which the field has not; inside this is soon forgotten."""
-    every = np.random.default_rng(8).uniform(0.0, 1.0, (400, 2))
+def test_edges_converge_slowly_and_the_inside_fast(field, slopes) -> None:
+    """The plate has free edges, which the field has not; inside this is soon forgotten.
+
+    Worst are the corners, where the orders are 1.6 and 0.6.
+    """
+    along = np.linspace(0.0, 1.0, 801)
+    edges = np.concatenate(
+        [
+            np.column_stack(each)
+            for end in (0.0, 1.0)
+            for each in ((along, 0 * along + end), (0 * along + end, along))
+        ]
+    )
     errors = []
     for n in (11, 21, 41):
         points = grid(n)
         spline = plate_spline(points, field(*points.T)[:, None])
         row = []
-        for at in (every, INSIDE):
+        for at in (edges, INSIDE):
             true = np.array(slopes(*at.T)).T
             row.append(np.abs(spline.evaluate(at)[:, 0] - field(*at.T)).max())
             row.append(np.abs(spline.slopes(at)[:, :, 0] - true).max())
         errors.append(row)
     order = -np.polyfit(np.log([10, 20, 40]), np.log(errors), 1)[0]
-    assert order[0] > 1.6
-    assert order[1] > 0.8
+    assert order[0] > 1.5
+    assert order[1] > 0.5
     assert min(order[2:]) > 4.0
 
 
