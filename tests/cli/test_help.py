@@ -12,13 +12,13 @@ import pytest
 import foldwing
 
 OF_A_MODEL = {"--fold", "--fold-of", "--basis", "--plot", "--no-plot", "--out", "--force", "--json"}
-OF_AN_AIRSTREAM = {"--aero", "--panels", "--spacing", "--gap", "--drop-mode"}
+OF_AN_AIRSTREAM = {"--structure", "--aero", "--panels", "--spacing", "--gap", "--drop-mode"}
 OF_A_SEARCH = OF_AN_AIRSTREAM | {"--max-speed", "--damping", "--damping-threshold"}
 OF_AN_AIRCRAFT = {"--tail-aero", "--trim"}
 OPTIONS = {
     "examples": {"--copy"},
     "schema": set(),
-    "modes": OF_A_MODEL | {"--measured", "--clamped"},
+    "modes": OF_A_MODEL | {"--structure", "--measured", "--clamped"},
     "flutter": OF_A_MODEL | OF_A_SEARCH | {"--speeds", "--method", "--time-step", "--clamped"},
     "steady": (OF_A_MODEL - {"--basis"})
     | {"--alpha", "--speed", "--panels", "--spacing", "--gap", "--image", "--clamped"},

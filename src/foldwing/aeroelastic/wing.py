@@ -157,12 +157,13 @@ class AeroelasticWing:
         InputError
             When segments of a vortex lattice lie on each other, or reach through the wall.
         """
+        imported = self.assembly.warnings
         if self.aerodynamics != "lattice":
-            return free_hinge_warning(self.wing)
+            return " ".join(filter(None, (*imported, free_hinge_warning(self.wing))))
         image = self.wing.lattice.image
         doubts = strips_warning(self.strips(modes), modes.fold_angles, image)
         others = gap_warning(self.wing), unused_warning(self.wing), free_hinge_warning(self.wing)
-        return " ".join(filter(None, (doubts, *others)))
+        return " ".join(filter(None, (*imported, doubts, *others)))
 
     def influence(self, modes: StructuralModes) -> Influence:
         """Return the influence of the vortices of the folded wing and its wake."""

@@ -102,6 +102,8 @@ def run_modes(request: Request, output: Output) -> None:
     else:
         with shown():
             tables.show_modes(answers)
+    for text in followed[0].modes.assembly.warnings:
+        print(text, file=sys.stderr)
     write_result(dataset, folder, output)
 
 

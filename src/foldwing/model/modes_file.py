@@ -2,8 +2,7 @@
 
 from typing import Annotated
 
-from foldwing.model.listed import Point, Vector
-from foldwing.model.planform import Planform
+from foldwing.model.listed import Vector
 from foldwing.model.quantities import Bounds, Length, Mass, Quantity
 from foldwing.model.record import Record
 
@@ -17,32 +16,29 @@ class ModesFile(Record):
     ----------
     file : str
         Path.
+    mass : float
+        Of the segment in kg, taken as spread evenly over it.
     geometry : str
         Path of a bulk data file with the points, where the first has none; else empty.
-    length_unit : float
-        Of the file's points, in m.
+    length_unit, mass_unit : float, optional
+        Units of the file in m and kg; what the file says, else 1.
+    modal_mass : float, optional
+        Of every mode in the file's unit of mass, instead of those of the file.
     origin : tuple of float
-        Origin of the segment's local axes in axes and unit of the file.
+        Origin of the segment's local axes in the axes of the file, in m.
     x_axis, y_axis : tuple of float
-        Directions aft and outboard in axes of the file.
-    mass : float
-        Of the segment in kg.
-    centre : (float, float), optional
-        Of its mass, local x and y in m; the centroid of the outline unless given.
+        Directions aft and outboard in the axes of the file.
     smoothing : float
-        Of noisy shapes; 0 goes through every point.
+        Of noisy shapes, in m; 0 goes through every point.
     """
 
     file: str
     mass: Mass
     geometry: str = ""
-    length_unit: Length = 1.0
+    length_unit: Length | None = None
+    mass_unit: Mass | None = None
+    modal_mass: Mass | None = None
     origin: Vector = (0.0, 0.0, 0.0)
     x_axis: Vector = (1.0, 0.0, 0.0)
     y_axis: Vector = (0.0, 1.0, 0.0)
-    centre: Point | None = None
     smoothing: Smoothing = 0.0
-
-    def centre_in(self, outline: Planform) -> tuple[float, float]:
-        """Return the centre of mass, that of an even sheet unless given."""
-        return outline.centroid if self.centre is None else self.centre

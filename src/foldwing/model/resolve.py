@@ -9,8 +9,8 @@ from foldwing.model.outlines import outlines
 from foldwing.model.parts import Hinge, HingeKind
 from foldwing.model.resolve_segment import resolved_segment
 from foldwing.model.schema import AircraftTable, HingeTable, ModelFile
-from foldwing.model.segment import Structure
 from foldwing.model.section import TypicalSection
+from foldwing.model.segment import Structure
 from foldwing.model.wing import Wing, in_file
 
 _OF_WINGS = ("material", "point_mass", "lattice")
@@ -60,7 +60,7 @@ def resolved(model: ModelFile, folder: Path | None = None) -> Wing:
     if model.aircraft is None:
         return clamped
     if not clamped.is_plain or Structure.IMPORTED in clamped.structures:
-        limit = "belongs to a wing of rectangles with hinges along the stream, none of them imported"
+        limit = "belongs to a wing of beam or plate rectangles with hinges along the stream"
         raise InputError("aircraft", "a table of this model", limit, "Remove it, or the outlines.")
     if "image" not in model.lattice.model_fields_set:
         clamped = clamped.with_lattice(image=True)

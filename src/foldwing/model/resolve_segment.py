@@ -209,6 +209,5 @@ def _modes(
         plate = Segment.model_validate(
             {**extent, "structure": "plate", "planform": section.outline, "sheet": sheet}
         )
-        values["mass"], *centre = plate.mass_and_centre
-        values["centre"] = table.centre or tuple(centre)
+        values["mass"] = plate.mass_and_centre.mass
     return values

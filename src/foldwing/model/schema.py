@@ -129,12 +129,13 @@ class ModesTable(Record):
 
     file: str
     geometry: str | None = None
-    length_unit: Length = 1.0
+    length_unit: Length | None = None
+    mass_unit: Mass | None = None
+    modal_mass: Mass | None = None
     origin: Vector = (0.0, 0.0, 0.0)
     x_axis: Vector = (1.0, 0.0, 0.0)
     y_axis: Vector = (0.0, 1.0, 0.0)
     mass: Mass | None = None
-    centre: Point | None = None
     smoothing: Smoothing = 0.0
 
 

@@ -189,7 +189,7 @@ class Segment(Record):
             mass = self.beam.mass_per_span * self.span
             return MassAndCentre(mass, self.mass_offset, self.span / 2.0)
         if self.modes is not None and self.structure is Structure.IMPORTED:
-            return MassAndCentre(self.modes.mass, *self.modes.centre_in(self.outline))
+            return MassAndCentre(self.modes.mass, *self.outline.centroid)
         assert self.sheet is not None
         return _mass_of_sheet(self.outline, self.sheet)
 

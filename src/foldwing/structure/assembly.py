@@ -46,6 +46,15 @@ class Assembly:
         """Number of coordinates of all segments."""
         return int(self.slices[-1].stop)
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What makes the modes of segments doubtful, in words."""
+        return tuple(
+            f"Segment {number}: {text}."
+            for number, component in enumerate(self.components, start=1)
+            for text in component.warnings
+        )
+
     @cached_property
     def mass(self) -> Real:
         """Mass matrix of the wing and of rigid bodies at its root, shape (size, size)."""

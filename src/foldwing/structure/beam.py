@@ -51,6 +51,11 @@ class BeamModes:
         nb, n = self.plunge.count, self._out_of_plane
         return slice(0, nb), slice(nb, n), slice(n, self.count)
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Nothing: the modes are computed here."""
+        return ()
+
     @cached_property
     def mass(self) -> Real:
         """Mass matrix, shape (n, n), in kg and kg m^2."""

@@ -45,6 +45,10 @@ class ComponentModes(Protocol):
         """Number n of coordinates."""
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """What makes the modes doubtful, in words."""
+
+    @property
     def mass(self) -> Real:
         """Mass matrix, shape (n, n)."""
 

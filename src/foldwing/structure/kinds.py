@@ -1,9 +1,13 @@
 """Which kind of component modes a segment has."""
 
 from foldwing.model import Analysis, Segment, Structure
+from foldwing.model.modes_file import ModesFile
 from foldwing.structure.beam import beam_modes
 from foldwing.structure.component import ComponentModes, Root
+from foldwing.structure.imported import ImportedModes, imported_modes
+from foldwing.structure.mode_files import Placement, read_modes
 from foldwing.structure.plate import Plate, plate_modes
+from foldwing.structure.rigid_properties import uniform_sheet
 
 
 def component_modes(segment: Segment, analysis: Analysis, root: Root) -> ComponentModes:
@@ -19,4 +23,25 @@ def component_modes(segment: Segment, analysis: Analysis, root: Root) -> Compone
     if segment.structure is Structure.PLATE and segment.sheet is not None:
         plate = Plate(segment.outline, segment.sheet, segment.elastic_axis)
         return plate_modes(plate, analysis.plate_modes, root)
-    raise ValueError(f"structure: got {segment.structure}")
+    if segment.modes is None:
+        raise ValueError(f"structure: got {segment.structure} without what it is computed from")
+    return _imported(segment, segment.modes, root)
+
+
+def _imported(segment: Segment, file: ModesFile, root: Root) -> ImportedModes:
+    read = read_modes(
+        file.file,
+        geometry=file.geometry or None,
+        length_unit=file.length_unit,
+        mass_unit=file.mass_unit,
+        modal_mass=file.modal_mass,
+    )
+    outline = segment.outline
+    return imported_modes(
+        read.placed(Placement(file.origin, file.x_axis, file.y_axis)),
+        outline,
+        segment.elastic_axis,
+        uniform_sheet(outline, file.mass / outline.area),
+        root,
+        smoothing=file.smoothing,
+    )

@@ -89,6 +89,11 @@ class PlateModes:
     def _rigid(self) -> Real:
         return _RIGID[:, OUT_OF_PLANE[self.root]]
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Nothing: the modes are computed here."""
+        return ()
+
     @cached_property
     def mass(self) -> Real:
         """Mass matrix, shape (n, n), in kg, kg m and kg m^2."""
