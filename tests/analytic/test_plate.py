@@ -9,7 +9,8 @@ from scipy.optimize import root
 from foldwing.errors import ComputationError, InputError
 from foldwing.model import Planform, Segment, Sheet, rectangle
 from foldwing.structure.beam import beam_modes
-from foldwing.structure.component import IN_PLANE, Root
+from foldwing.structure.component import Root
+from foldwing.structure.in_plane import IN_PLANE
 from foldwing.structure.plate import OUT_OF_PLANE, Plate, plate_modes
 from foldwing.structure.plate_elastic import elastic_modes
 from support.plates import (

@@ -15,6 +15,7 @@ import pytest
 
 from foldwing.cli.main import run
 from foldwing.model import DerivativesTable, Surface, parse_model
+from foldwing.model.modes_file import ModesTable
 from foldwing.model.quantities import Quantity
 from foldwing.model.record import Record
 from foldwing.model.schema import (
@@ -22,7 +23,6 @@ from foldwing.model.schema import (
     FuselageTable,
     HingeTable,
     ModelFile,
-    ModesTable,
     SegmentTable,
     TailTable,
     WingTable,

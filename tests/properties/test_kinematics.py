@@ -5,8 +5,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from foldwing.model import Planform, Wing, flare_of, frames, trapezoid
-from foldwing.model.segment import Segment
+from foldwing.model import (
+    Planform,
+    example_text,
+    flare_of,
+    frames,
+    parse_model,
+    read_model,
+    trapezoid,
+)
 
 ANGLE = st.floats(-np.pi, np.pi)
 FLARE = st.floats(-1.0, 1.0)
@@ -92,15 +99,7 @@ def test_centroid_and_area_of_a_triangle():
     assert triangle.is_pointed and triangle.has_one_chord
 
 
-def test_a_wing_of_one_segment_stands_where_it_is():
-    segment = Segment(
-        span=1.0,
-        chord=0.2,
-        bending_stiffness=1.0,
-        torsion_stiffness=1.0,
-        mass_per_span=1.0,
-        inertia_per_span=1.0,
-    )
-    wing = Wing(segments=(segment,))
-    assert wing.is_plain
-    assert wing.frames().origins[0] == pytest.approx(np.zeros(3))
+def test_which_wings_are_plain():
+    assert read_model("three-segment").is_plain
+    flared = example_text("three-segment-plate").replace("fold = -30", "fold = -30, flare = 10")
+    assert not parse_model(flared).is_plain

@@ -7,6 +7,7 @@ import numpy as np
 from foldwing.maths.arrays import Real
 from foldwing.model.faults import Path, fault
 from foldwing.model.parts import Hinge
+from foldwing.model.planform import flare_of
 from foldwing.model.segment import Segment, Structure
 
 PARALLEL = 1e-6
@@ -47,7 +48,7 @@ def spring_places(inboard: Segment, outboard: Segment, hinge: Hinge) -> Real:
 
 def joins_at_points(inboard: Segment, outboard: Segment) -> bool:
     """Return whether a hinge joins its segments at its springs; beams are stiff across them."""
-    return not inboard.structure is outboard.structure is Structure.BEAM
+    return {inboard.structure, outboard.structure} != {Structure.BEAM}
 
 
 def check_hinge(index: int, segments: tuple[Segment, ...], hinge: Hinge) -> None:
@@ -93,7 +94,7 @@ def _check_edge(where: Path, hinge: Hinge, edge: Real, name: str) -> None:
     h = hinge.direction
     turned = abs(way[0] * h[1] - way[1] * h[0]) / float(np.linalg.norm(way))
     if turned > PARALLEL or way @ h < 0.0:
-        own = math.degrees(math.atan2(-way[1], way[0]))
+        own = math.degrees(flare_of(edge)) + 0.0  # no minus before a zero
         limit = f"must be the flare of the {name}, {own:.6g} degrees"
         remedy = "Both edges at a hinge have its direction: turn the edge, or change the flare."
         raise fault((*where, "flare"), round(math.degrees(hinge.flare), 9), limit, remedy)

@@ -9,17 +9,17 @@ from foldwing.model.record import Record
 Smoothing = Annotated[float, Quantity("a length", "m", '"1 mm"', Bounds(at_least=0.0))]
 
 
-class ModesFile(Record):
-    """Where the modes of a segment come from.
+class ModesTable(Record):
+    """Modes of the segment computed or measured elsewhere; ``file`` is found beside the model.
 
     Attributes
     ----------
     file : str
         Path.
-    mass : float
-        Of the segment in kg, taken as spread evenly over it.
-    geometry : str
-        Path of a bulk data file with the points, where the first has none; else empty.
+    mass : float, optional
+        Of the segment in kg, taken as spread evenly over it; that of its sheet unless given.
+    geometry : str, optional
+        Path of a bulk data file with the points, where the first has none.
     length_unit, mass_unit : float, optional
         Units of the file in m and kg; what the file says, else 1.
     modal_mass : float, optional
@@ -33,8 +33,8 @@ class ModesFile(Record):
     """
 
     file: str
-    mass: Mass
-    geometry: str = ""
+    mass: Mass | None = None
+    geometry: str | None = None
     length_unit: Length | None = None
     mass_unit: Mass | None = None
     modal_mass: Mass | None = None
@@ -42,3 +42,9 @@ class ModesFile(Record):
     x_axis: Vector = (1.0, 0.0, 0.0)
     y_axis: Vector = (0.0, 1.0, 0.0)
     smoothing: Smoothing = 0.0
+
+
+class ModesFile(ModesTable):
+    """The same, resolved: the mass is known, and paths are those of files that can be opened."""
+
+    mass: Mass

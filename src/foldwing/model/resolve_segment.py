@@ -6,10 +6,10 @@ from pathlib import Path
 from foldwing.errors import InputError
 from foldwing.model.faults import as_input_error, file_path, shown
 from foldwing.model.material import Material, strip_inertia, strip_properties
-from foldwing.model.modes_file import ModesFile
+from foldwing.model.modes_file import ModesFile, ModesTable
 from foldwing.model.planform import Planform
 from foldwing.model.record import suggest
-from foldwing.model.schema import ModelFile, ModesTable, SegmentKeys, SegmentTable, WingTable
+from foldwing.model.schema import ModelFile, SegmentKeys, SegmentTable, WingTable
 from foldwing.model.segment import MID_CHORD, NEEDS, Segment, Structure
 from foldwing.model.sheet import Sheet
 
@@ -199,7 +199,6 @@ def _modes(
     for key in ("file", "geometry"):
         if values[key]:
             values[key] = str((folder or Path()) / str(values[key]))
-    values["geometry"] = values["geometry"] or ""
     if values["mass"] is None:
         if not isinstance(sheet, Sheet):
             path = file_path(("wing", "segment", section.index, "modes", "mass"))

@@ -10,9 +10,9 @@ from foldwing.errors import InputError
 from foldwing.model.aircraft import TailTheory, Trim, WingTheory
 from foldwing.model.faults import fault
 from foldwing.model.flight import FlightTable
-from foldwing.model.listed import Point, Positions, Thickness, Vector
+from foldwing.model.listed import Point, Positions, Thickness
 from foldwing.model.material import Material
-from foldwing.model.modes_file import Smoothing
+from foldwing.model.modes_file import ModesTable
 from foldwing.model.parts import FLARE, MOST_SPRINGS, Air, Analysis, Lattice, PointMass
 from foldwing.model.planform import MOST as MOST_CORNERS
 from foldwing.model.quantities import (
@@ -122,21 +122,6 @@ class HingeTable(Record):
             return "free"
         discrete = self.springs is not None or self.positions is not None
         return "springs" if discrete else "stiffness"
-
-
-class ModesTable(Record):
-    """Modes of the segment computed or measured elsewhere; ``file`` is found beside the model."""
-
-    file: str
-    geometry: str | None = None
-    length_unit: Length | None = None
-    mass_unit: Mass | None = None
-    modal_mass: Mass | None = None
-    origin: Vector = (0.0, 0.0, 0.0)
-    x_axis: Vector = (1.0, 0.0, 0.0)
-    y_axis: Vector = (0.0, 1.0, 0.0)
-    mass: Mass | None = None
-    smoothing: Smoothing = 0.0
 
 
 class SegmentKeys(Record):

@@ -126,6 +126,10 @@ class Segment(Record):
             limit = "beams are rectangles along the stream"
             remedy = 'Take structure = "plate" for any other outline.'
             raise fault(("structure",), "beam", limit, remedy)
+        if not self.outline.has_one_chord:
+            limit = "every line along the stream must cross the outline once in and once out"
+            remedy = "Fill the notch, or cut the segment in two."
+            raise fault(("corners",), f"a list of {len(self.outline.corners)}", limit, remedy)
         return self
 
     @model_validator(mode="after")

@@ -2,6 +2,7 @@
 
 ====================  ==========================================================================
 `component`           what every kind of segment model offers
+`in_plane`            motions of a segment in its plane
 `spanwise`            functions along the span from which the modes of a beam are made
 `beam`                component modes of a beam segment
 `plate`               component modes of a plate segment of any outline, by finite elements:

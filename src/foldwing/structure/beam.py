@@ -8,7 +8,13 @@ import numpy as np
 from foldwing.maths.arrays import Real
 from foldwing.maths.quadrature import gauss_rule
 from foldwing.model import Analysis, Segment
-from foldwing.structure.component import IN_PLANE, TWISTING, Root, SectionMotion
+from foldwing.structure.component import Root, SectionMotion
+from foldwing.structure.in_plane import (
+    IN_PLANE,
+    in_plane_displacement,
+    in_plane_mass,
+    with_twisting,
+)
 from foldwing.structure.spanwise import (
     SpanwiseFunctions,
     bending_functions,
@@ -79,7 +85,7 @@ class BeamModes:
         L = segment.span
         by_x, by_y = m * segment.mass_offset * L, m * L**2 / 2.0
         polar = m * L**3 / 3.0 + i * L
-        return np.array([[m * L, 0.0, -by_y], [0.0, m * L, by_x], [-by_y, by_x, polar]])
+        return in_plane_mass(m * L, by_x, by_y, polar)
 
     @cached_property
     def stiffness(self) -> Real:
@@ -97,13 +103,10 @@ class BeamModes:
     @cached_property
     def torsion_mass(self) -> Real:
         """Mass of twist, and of in-plane x motion and yaw, which a folded wing's twist drives."""
-        _, torsion, in_plane = self._blocks
+        _, torsion, _ = self._blocks
         M = np.zeros_like(self.mass)
         M[torsion, torsion] = self.mass[torsion, torsion]
-        twists = [in_plane.start + i for i, j in enumerate(self._in_plane) if j in TWISTING]
-        x_and_yaw = np.ix_(twists, twists)
-        M[x_and_yaw] = self.mass[x_and_yaw]
-        return M
+        return with_twisting(M, self.mass, self.root)
 
     @property
     def mass_and_centre(self) -> tuple[float, Real]:
@@ -130,9 +133,7 @@ class BeamModes:
         u = np.zeros((len(y), 3, self.count))
         u[:, 2, bending] = self.plunge.evaluate(y, 0)
         u[:, 2, torsion] = -x[:, None] * self.twist.evaluate(y, 0)
-        one, zero = np.ones_like(y), np.zeros_like(y)
-        u[:, 0, in_plane] = np.stack([one, zero, -y], axis=1)[:, self._in_plane]
-        u[:, 1, in_plane] = np.stack([zero, one, x], axis=1)[:, self._in_plane]
+        u[:, :2, in_plane] = in_plane_displacement(x, y, self.root)
         return u
 
     def slopes(self, x: Real, y: Real) -> Real:

@@ -17,13 +17,6 @@ class Root(Enum):
     """In every way; a hinge holds it."""
 
 
-IN_PLANE: dict[Root, list[int]] = {Root.CLAMPED: [], Root.CARRIAGE: [0], Root.FREE: [0, 1, 2]}
-"""In-plane rigid motions of a segment, of x and y translation and yaw about its origin."""
-
-TWISTING = (0, 2)
-"""In-plane motions that the twist of a folded wing drives."""
-
-
 class SectionMotion(NamedTuple):
     """Plunge and twist of chordwise sections, each of shape (m, n)."""
 

@@ -5,7 +5,6 @@ through the displacements, smooth with their slopes, make them functions of x an
 is free to move has its rigid motions exactly, from its mass, centre and moments of inertia.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,10 +12,9 @@ import numpy as np
 
 from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
-from foldwing.maths.quadrature import gauss_rule
 from foldwing.maths.splines import Surface, line_spline, on_one_line, plate_spline
 from foldwing.model import Planform
-from foldwing.structure.component import IN_PLANE, TWISTING, Root, SectionMotion
+from foldwing.structure.component import Root, SectionMotion
 from foldwing.structure.imported_doubts import check_place, doubts
 from foldwing.structure.imported_selection import (
     Nodes,
@@ -24,16 +22,16 @@ from foldwing.structure.imported_selection import (
     selected,
     surface_nodes,
 )
+from foldwing.structure.in_plane import IN_PLANE, in_plane_displacement, with_twisting
 from foldwing.structure.mode_files import ModeSet
 from foldwing.structure.rigid_properties import RigidProperties, area_rule
+from foldwing.structure.sections import section_motion, span_rule
 
 RIGID_MOTIONS = 3
 """Rigid motions out of the plane of a free segment: w = 1, y and -x."""
 
-_CHORD_POINTS = 12
 _SPAN_POINTS = 24
 _AREA_POINTS = 24
-_SHORTEST = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,18 +142,13 @@ class ImportedModes:
         That of the twist of sections, with the mass spread evenly over the outline, and of in-plane
         x motion and yaw.
         """
-        nodes, shares = gauss_rule(1.0, _SPAN_POINTS)
-        lengths = np.diff(self.planform.breaks)
-        y = (self.planform.breaks[:-1, None] + lengths[:, None] * nodes).ravel()
+        y, weights = span_rule(self.planform, _SPAN_POINTS)
         front, back = self.planform.chord_ends(y)
         axis = front + self.elastic_axis * (back - front)
         inertia = self._mass_per_area * ((back - axis) ** 3 - (front - axis) ** 3) / 3.0
         twist = self.section_motion(y).twist
-        M = (twist * (inertia * np.outer(lengths, shares).ravel())[:, None]).T @ twist
-        in_plane = self._blocks[2]
-        twists = [in_plane.start + i for i, j in enumerate(IN_PLANE[self.root]) if j in TWISTING]
-        M[np.ix_(twists, twists)] = self.mass[np.ix_(twists, twists)]
-        return np.asarray(M)
+        M = np.asarray(twist.T @ ((weights * inertia)[:, None] * twist))
+        return with_twisting(M, self.mass, self.root)
 
     @property
     def _mass_per_area(self) -> float:
@@ -167,11 +160,9 @@ class ImportedModes:
         rigid, elastic, in_plane = self._blocks
         u = np.zeros((len(y), 3, self.count))
         u[:, 2, elastic] = self.surface.evaluate(np.column_stack([x, y]))
+        u[:, :2, in_plane] = in_plane_displacement(x, y, self.root)
         if self.root is Root.FREE:
-            one, zero = np.ones_like(y), np.zeros_like(y)
-            u[:, 2, rigid] = np.stack([one, y, -x], axis=1)
-            u[:, 0, in_plane] = np.stack([one, zero, -y], axis=1)
-            u[:, 1, in_plane] = np.stack([zero, one, x], axis=1)
+            u[:, 2, rigid] = np.stack([np.ones_like(y), y, -x], axis=1)
         return u
 
     def slopes(self, x: Real, y: Real) -> Real:
@@ -186,28 +177,7 @@ class ImportedModes:
 
     def section_motion(self, y: Real) -> SectionMotion:
         """Return plunge (m, up) and twist (rad, nose up) of the sections at ``y`` (m,)."""
-        motion, _ = _section_motion(self.planform, self.elastic_axis, y, self.displacement)
-        return motion
-
-
-def _section_motion(
-    planform: Planform, elastic_axis: float, y: Real, displacement: Callable[[Real, Real], Real]
-) -> tuple[SectionMotion, Real]:
-    """Return plunge and twist nearest to w over chords, and the rms that they leave, (m, n)."""
-    y = np.asarray(y, float)
-    front, back = planform.chord_ends(y)
-    middle, half = (front + back) / 2.0, (back - front) / 2.0
-    half = np.where(np.isnan(half), half, np.maximum(half, _SHORTEST * planform.size / 2.0))
-    t, weights = gauss_rule(2.0, _CHORD_POINTS)
-    x = middle[:, None] + half[:, None] * (t - 1.0)
-    w = displacement(x.ravel(), np.repeat(y, len(t)))[:, 2].reshape(len(y), len(t), -1)
-    mean = np.einsum("c,mcn->mn", weights / 2.0, w)
-    lean = np.einsum("c,mcn->mn", 1.5 * weights * (t - 1.0), w)
-    twist = -lean / half[:, None]
-    axis = front + elastic_axis * (back - front)
-    left = w - mean[:, None] - lean[:, None] * (t - 1.0)[:, None]
-    remainder = np.sqrt(np.einsum("c,mcn->mn", weights / 2.0, left**2))
-    return SectionMotion(mean - (axis - middle)[:, None] * twist, twist), remainder
+        return section_motion(self.planform, self.elastic_axis, y, self.displacement).motion
 
 
 def imported_modes(

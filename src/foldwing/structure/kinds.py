@@ -1,13 +1,9 @@
-"""Which kind of component modes a segment has."""
+"""Which kind of component modes a segment has; what computes them is imported when it is."""
 
 from foldwing.model import Analysis, Segment, Structure
 from foldwing.model.modes_file import ModesFile
 from foldwing.structure.beam import beam_modes
 from foldwing.structure.component import ComponentModes, Root
-from foldwing.structure.imported import ImportedModes, imported_modes
-from foldwing.structure.mode_files import Placement, read_modes
-from foldwing.structure.plate import Plate, plate_modes
-from foldwing.structure.rigid_properties import uniform_sheet
 
 
 def component_modes(segment: Segment, analysis: Analysis, root: Root) -> ComponentModes:
@@ -21,6 +17,8 @@ def component_modes(segment: Segment, analysis: Analysis, root: Root) -> Compone
     if segment.structure is Structure.BEAM:
         return beam_modes(segment, analysis, root)
     if segment.structure is Structure.PLATE and segment.sheet is not None:
+        from foldwing.structure.plate import Plate, plate_modes
+
         plate = Plate(segment.outline, segment.sheet, segment.elastic_axis)
         return plate_modes(plate, analysis.plate_modes, root)
     if segment.modes is None:
@@ -28,10 +26,14 @@ def component_modes(segment: Segment, analysis: Analysis, root: Root) -> Compone
     return _imported(segment, segment.modes, root)
 
 
-def _imported(segment: Segment, file: ModesFile, root: Root) -> ImportedModes:
+def _imported(segment: Segment, file: ModesFile, root: Root) -> ComponentModes:
+    from foldwing.structure.imported import imported_modes
+    from foldwing.structure.mode_files import Placement, read_modes
+    from foldwing.structure.rigid_properties import uniform_sheet
+
     read = read_modes(
         file.file,
-        geometry=file.geometry or None,
+        geometry=file.geometry,
         length_unit=file.length_unit,
         mass_unit=file.mass_unit,
         modal_mass=file.modal_mass,

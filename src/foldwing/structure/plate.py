@@ -9,7 +9,13 @@ from foldwing.errors import InputError
 from foldwing.maths.arrays import Indices, Real
 from foldwing.maths.triangles import Triangles
 from foldwing.model import Planform, Sheet
-from foldwing.structure.component import IN_PLANE, TWISTING, Root, SectionMotion
+from foldwing.structure.component import Root, SectionMotion
+from foldwing.structure.in_plane import (
+    IN_PLANE,
+    in_plane_displacement,
+    in_plane_mass,
+    with_twisting,
+)
 from foldwing.structure.plate_cache import kept_elastic_modes
 from foldwing.structure.plate_elastic import RIGID, ElasticModes
 from foldwing.structure.plate_elements import monomials
@@ -110,7 +116,7 @@ class PlateModes:
     def _in_plane_mass(self) -> Real:
         J = self.elastic.moments
         m, by_x, by_y, polar = J[0, 0], J[0, 1], J[0, 2], J[1, 1] + J[2, 2]
-        return np.array([[m, 0.0, -by_y], [0.0, m, by_x], [-by_y, by_x, polar]])
+        return in_plane_mass(m, by_x, by_y, polar)
 
     @cached_property
     def stiffness(self) -> Real:
@@ -122,15 +128,12 @@ class PlateModes:
     @cached_property
     def torsion_mass(self) -> Real:
         """Mass of the twist of sections, and of in-plane x motion and yaw, which it drives."""
-        plate, in_plane = self.plate, self._blocks[2]
+        plate = self.plate
         y, weights = span_rule(plate.planform, ALONG + self.count)
         inertia = section_inertia(plate.planform, plate.sheet, plate.elastic_axis, y)
         twist = self.section_motion(y).twist
         M = np.asarray(twist.T @ ((weights * inertia)[:, None] * twist))
-        twists = [in_plane.start + i for i, j in enumerate(self._in_plane) if j in TWISTING]
-        x_and_yaw = np.ix_(twists, twists)
-        M[x_and_yaw] = self.mass[x_and_yaw]
-        return M
+        return with_twisting(M, self.mass, self.root)
 
     @property
     def mass_and_centre(self) -> tuple[float, Real]:
@@ -157,11 +160,9 @@ class PlateModes:
         x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
         rigid, elastic, in_plane = self._blocks
         u = np.zeros((len(y), 3, self.count))
-        one, zero = np.ones_like(y), np.zeros_like(y)
-        u[:, 2, rigid] = np.stack([one, x, y], axis=1) @ self._rigid
+        u[:, 2, rigid] = np.stack([np.ones_like(y), x, y], axis=1) @ self._rigid
         u[:, 2, elastic] = self._of_elements(x, y, [(0, 0)])[:, 0]
-        u[:, 0, in_plane] = np.stack([one, zero, -y], axis=1)[:, self._in_plane]
-        u[:, 1, in_plane] = np.stack([zero, one, x], axis=1)[:, self._in_plane]
+        u[:, :2, in_plane] = in_plane_displacement(x, y, self.root)
         return u
 
     def slopes(self, x: Real, y: Real) -> Real:

@@ -40,7 +40,7 @@ def kept_elastic_modes(
     return _kept(_Problem(planform, sheet, count, clamped, size))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class _Problem:
     """The arguments of `elastic_modes`, the same when their content is."""
 
@@ -59,12 +59,6 @@ class _Problem:
         sheet = (self.sheet.model_dump_json(), stiffness)
         content = (made_by, outline, sheet, self.count, self.clamped, self.size.hex())
         return hashlib.sha256(repr(content).encode()).hexdigest()
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Problem) and self.key == other.key
-
-    def __hash__(self) -> int:
-        return hash(self.key)
 
 
 @lru_cache(maxsize=PLATES)

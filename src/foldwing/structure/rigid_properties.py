@@ -9,6 +9,7 @@ from foldwing.errors import InputError
 from foldwing.maths.arrays import Real
 from foldwing.maths.quadrature import gauss_rule
 from foldwing.model import Planform
+from foldwing.structure.in_plane import in_plane_mass
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ class RigidProperties:
     def in_plane_mass(self) -> Real:
         """Mass matrix of translation along x and y and of yaw about the origin, shape (3, 3)."""
         m, (x, y) = self.mass, self.centre
-        return np.array([[m, 0.0, -m * y], [0.0, m, m * x], [-m * y, m * x, self.Ixx + self.Iyy]])
+        return in_plane_mass(m, m * x, m * y, self.Ixx + self.Iyy)
 
 
 def uniform_sheet(planform: Planform, mass_per_area: float) -> RigidProperties:

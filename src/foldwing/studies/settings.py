@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from foldwing.aerodynamics.lattice import strips_by_segment
 from foldwing.aeroelastic.wing import AeroelasticWing
-from foldwing.model import Wing
+from foldwing.model import Structure, Wing
 from foldwing.model.parts import MOST_MODES
 
 MOST_PANELS, MOST_ROWS = 4000, 16000
@@ -173,7 +173,7 @@ SETTINGS: Mapping[str, Setting] = {
             _segment_modes,
             _with_segment_modes,
             _segment_levels,
-            lambda model: True,
+            lambda model: Structure.BEAM in model.wing.structures,
         ),
         Setting(
             "system-modes",

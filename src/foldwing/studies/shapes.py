@@ -70,10 +70,11 @@ def surface_grid(wing: Wing) -> SurfaceGrid:
     fraction_y = spanwise / (SPANWISE_POINTS - 1)
     fraction_x = chordwise / (CHORDWISE_POINTS - 1)
     segments = wing.segments
+    points = np.concatenate([s.outline.point(fraction_x, fraction_y) for s in segments])
     return SurfaceGrid(
         segment=np.repeat(np.arange(1, len(segments) + 1), len(spanwise)),
         chordwise=np.tile(chordwise, len(segments)),
         spanwise=np.tile(spanwise, len(segments)),
-        x=np.concatenate([s.outline.point(fraction_x, fraction_y)[:, 0] for s in segments]),
-        y=np.concatenate([s.outline.point(fraction_x, fraction_y)[:, 1] for s in segments]),
+        x=points[:, 0],
+        y=points[:, 1],
     )
