@@ -44,7 +44,7 @@ def test_natural_frequencies_come_back(returned):
 
 
 def test_forces_of_the_air_come_back(returned):
-    """Generalized forces decide the flutter points; modes have the sign of their largest entry."""
+    """Forces are quadratic in the shapes: twice their error at points left out, below 1 %."""
     forces = []
     for each in returned:
         model = AeroelasticWing(each)
